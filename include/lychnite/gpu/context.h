@@ -1,0 +1,48 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "lychnite/base/log.h"
+
+namespace lychnite::gpu {
+
+/// One way to OpenGL on this machine.
+struct DeviceInfo {
+  int index = 0;         ///< what --device N means
+  std::string platform;  ///< "device" or "surfaceless" (EGL_PLATFORM_DEVICE_EXT, EGL_PLATFORM_SURFACELESS_MESA)
+  std::string renderer, vendor, version;
+  bool software = false;  ///< llvmpipe, softpipe, swrast
+  bool usable = false;    ///< desktop OpenGL 4.5 core could be made current
+  std::string problem;    ///< why not, when not usable
+};
+
+/// Every EGL device and the surfaceless platform, tried in turn. Empty where there is no EGL. Never throws.
+std::vector<DeviceInfo> listDevices();
+
+struct ContextOptions {
+  std::string device = "auto";  ///< "auto" prefers a real GPU, "gpu" insists on one, "cpu" the software driver, or an index
+  bool debug = false;           ///< ask for a debug context; error messages of KHR_debug make checkErrors() throw
+};
+
+/// An OpenGL 4.5 core context without a window. Current on the thread that made it; move it nowhere else without
+/// makeCurrent(). Throws Error (Kind::kDevice) when there is no usable one.
+class Context {
+ public:
+  explicit Context(const ContextOptions& options = {}, LogSink log = {});
+  ~Context();
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+
+  void makeCurrent();
+  const DeviceInfo& device() const;
+  /// Throws Error (Kind::kDevice) with the driver's text when an OpenGL error was reported since the last call.
+  void checkErrors(const char* where);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace lychnite::gpu

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <vector>
+
+namespace lychnite {
+
+struct Bounds {
+  glm::dvec3 min{0}, max{0};
+  glm::dvec3 centre() const { return 0.5 * (min + max); }
+  glm::dvec3 extent() const { return max - min; }
+  double longestSide() const;
+};
+
+/// A triangle mesh in its own units (a file's units mean nothing until an object is given its true size).
+/// Counter-clockwise triangles face outwards. Normals are unit, per vertex, as many as positions.
+struct Mesh {
+  std::vector<glm::vec3> positions;
+  std::vector<glm::vec3> normals;
+  std::vector<glm::uvec3> triangles;
+
+  size_t memoryBytes() const;
+};
+
+Bounds boundsOf(const Mesh& mesh);
+
+/// Angle-weighted vertex normals (Thurmer & Wuthrich 1998). Vertices of no area get +y.
+std::vector<glm::vec3> angleWeightedNormals(const std::vector<glm::vec3>& positions,
+                                            const std::vector<glm::uvec3>& triangles);
+
+}  // namespace lychnite

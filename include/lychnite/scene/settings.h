@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lychnite/optics/profile.h"
+
+namespace lychnite {
+
+/// Every --method: the real-time ones (technique/) and the CPU judges (reference/).
+enum class Method { kAdaptive, kFixed, kDipole, kHierarchical, kWalk };
+Method parseMethod(std::string_view name, std::string_view where);  ///< throws Error with the nearest name
+std::string methodName(Method method);
+bool isReference(Method method);  ///< rendered by reference/ on the CPU
+
+/// Which parts of the light are added up.
+struct Components {
+  bool multiple = true, single = true, surface = true;
+};
+Components parseComponents(std::string_view list, std::string_view where);
+std::string componentsName(const Components& components);
+
+/// How a Scene is rendered, the same structure for every method; each reads what concerns it.
+struct RenderSettings {
+  int width = 600, height = 600;  ///< 1..16384
+  Method method = Method::kAdaptive;
+  ProfileKind profile = ProfileKind::kDipole;
+  Components components;
+  int singleSamples = 8;    ///< along the refracted ray (real-time methods), 1..256
+  int mapSize = 512;        ///< light-space map, 128..4096
+  double samples = 16;      ///< walk: photons per pixel
+  double tolerance = 0.005; ///< dipole: relative error to refine to
+  double timeLimit = 0;     ///< walk: seconds, 0 = none
+  double noise = 0;         ///< walk: relative noise to stop at, 0 = none
+  uint64_t seed = 1;
+  int threads = 0;  ///< 0 = all cores
+  /// Layers beside colour and alpha: multiple, single, surface, depth, normal, lights, radiosity, stderr.
+  std::vector<std::string> aovs;
+  bool wants(std::string_view aov) const;
+};
+
+/// Throws Error (Kind::kUsage) for numbers out of range, aovs unknown or not offered by the method.
+void validate(const RenderSettings& settings);
+
+}  // namespace lychnite
