@@ -1,5 +1,6 @@
 # Fails when a file under src/<layer>/ or include/lychnite/<layer>/ includes a header of a layer that is not
 # below it. Run as: cmake -DROOT=<tree> -P check_layers.cmake
+cmake_minimum_required(VERSION 3.22)
 set(allowed_base "base")
 set(allowed_optics "base;optics")
 set(allowed_image "base;optics;image")
