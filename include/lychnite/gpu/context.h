@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,8 +11,9 @@ namespace lychnite::gpu {
 
 /// One way to OpenGL on this machine.
 struct DeviceInfo {
-  int index = 0;         ///< what --device N means
-  std::string platform;  ///< "device" or "surfaceless" (EGL_PLATFORM_DEVICE_EXT, EGL_PLATFORM_SURFACELESS_MESA)
+  int index = 0;  ///< what --device N means
+  std::string
+      platform;  ///< "device" or "surfaceless" (EGL_PLATFORM_DEVICE_EXT, EGL_PLATFORM_SURFACELESS_MESA)
   std::string renderer, vendor, version;
   bool software = false;  ///< llvmpipe, softpipe, swrast
   bool usable = false;    ///< desktop OpenGL 4.5 core could be made current
@@ -22,12 +24,13 @@ struct DeviceInfo {
 std::vector<DeviceInfo> listDevices();
 
 struct ContextOptions {
-  std::string device = "auto";  ///< "auto" prefers a real GPU, "gpu" insists on one, "cpu" the software driver, or an index
-  bool debug = false;           ///< ask for a debug context; error messages of KHR_debug make checkErrors() throw
+  std::string device =
+      "auto";  ///< "auto" prefers a real GPU, "gpu" insists on one, "cpu" the software driver, or an index
+  bool debug = false;  ///< ask for a debug context; error messages of KHR_debug make checkErrors() throw
 };
 
-/// An OpenGL 4.5 core context without a window. Current on the thread that made it; move it nowhere else without
-/// makeCurrent(). Throws Error (Kind::kDevice) when there is no usable one.
+/// An OpenGL 4.5 core context without a window. Current on the thread that made it; move it nowhere else
+/// without makeCurrent(). Throws Error (Kind::kDevice) when there is no usable one.
 class Context {
  public:
   explicit Context(const ContextOptions& options = {}, LogSink log = {});
@@ -37,7 +40,10 @@ class Context {
 
   void makeCurrent();
   const DeviceInfo& device() const;
-  /// Throws Error (Kind::kDevice) with the driver's text when an OpenGL error was reported since the last call.
+  /// Bytes held on the device by the buffers and textures made in this context.
+  size_t allocatedBytes() const;
+  /// Throws Error (Kind::kDevice) with the driver's text when an OpenGL error was reported since the last
+  /// call (in a debug context: a KHR_debug error, which names the call), or when the device was reset.
   void checkErrors(const char* where);
 
  private:

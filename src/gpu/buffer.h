@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "gpu/object.h"
+
+namespace lychnite::gpu {
+
+/// Linear device memory: vertices, indices or a uniform block. Re-allocates only when the size changes.
+class Buffer : public Object {
+ public:
+  explicit Buffer(std::string label);
+
+  /// Replaces the whole content (size included).
+  template <class T>
+  void upload(std::span<const T> values) {
+    uploadBytes(std::as_bytes(values));
+  }
+  template <class T>
+  void upload(const std::vector<T>& values) {
+    upload(std::span<const T>(values));
+  }
+  /// Replaces bytes from `offset` (bytes) on; they must lie inside the buffer.
+  void update(size_t offset, std::span<const std::byte> bytes);
+  /// Reads everything back (waits for the device).
+  std::vector<std::byte> download() const;
+
+ private:
+  void uploadBytes(std::span<const std::byte> bytes);
+};
+
+}  // namespace lychnite::gpu
