@@ -14,20 +14,24 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A name beside `path` that no other thread or process uses; keeps the extension, which some writers look at.
+/// A name beside `path` that no other thread or process uses; keeps the extension, which some writers look
+/// at.
 fs::path temporaryBeside(const fs::path& path) {
   static std::atomic<unsigned> counter{0};
-  return path.parent_path() /
-         fmt::format(".{}.{}-{}.part{}", path.stem().string(), ::getpid(), counter++, path.extension().string());
+  return path.parent_path() / fmt::format(".{}.{}-{}.part{}", path.stem().string(), ::getpid(), counter++,
+                                          path.extension().string());
 }
 
 void refuseFolderProblems(const fs::path& path) {
   std::error_code code;
   if (fs::is_directory(path, code))
-    throw Error({.where = path.string(), .expected = "a file name to write to", .found = "a folder", .todo = ""});
+    throw Error(
+        {.where = path.string(), .expected = "a file name to write to", .found = "a folder", .todo = ""});
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   if (!fs::is_directory(folder, code))
-    throw Error({.where = path.string(), .expected = "", .found = fmt::format("there is no folder '{}'", folder.string()),
+    throw Error({.where = path.string(),
+                 .expected = "",
+                 .found = fmt::format("there is no folder '{}'", folder.string()),
                  .todo = "make it first"});
 }
 
@@ -41,7 +45,9 @@ void writeAtomically(const fs::path& path, const std::function<void(const fs::pa
     write(temporary);
     std::error_code code;
     fs::rename(temporary, path, code);
-    if (code) throw Error({.where = path.string(), .expected = "", .found = "cannot write: " + code.message(), .todo = ""});
+    if (code)
+      throw Error(
+          {.where = path.string(), .expected = "", .found = "cannot write: " + code.message(), .todo = ""});
   } catch (const Error& error) {
     fs::remove(temporary, ignored);
     if (error.parts().where != temporary.string()) throw;
@@ -60,7 +66,9 @@ void writeTextAtomically(const fs::path& path, std::string_view text) {
     file.write(text.data(), std::streamsize(text.size()));
     file.close();
     if (!file)
-      throw Error({.where = path.string(), .expected = "", .found = "cannot write",
+      throw Error({.where = path.string(),
+                   .expected = "",
+                   .found = "cannot write",
                    .todo = "check the folder's permissions and the free space"});
   });
 }

@@ -41,7 +41,8 @@ std::string_view trim(std::string_view text) {
               Error::Kind::kUsage);
 }
 
-/// Parses the leading number; the rest of the text goes to `rest`. False when there is none or it is not finite.
+/// Parses the leading number; the rest of the text goes to `rest`. False when there is none or it is not
+/// finite.
 bool leadingNumber(std::string_view text, double& value, std::string_view& rest) {
   if (!text.empty() && text.front() == '+') text.remove_prefix(1);
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -82,8 +83,9 @@ double parseNumber(std::string_view text, std::string_view where) {
   double value = 0;
   std::string_view rest;
   if (!leadingNumber(trim(text), value, rest) || !rest.empty())
-    throw Error({.where = std::string(where), .expected = "a number", .found = fmt::format("'{}'", text), .todo = ""},
-                Error::Kind::kUsage);
+    throw Error(
+        {.where = std::string(where), .expected = "a number", .found = fmt::format("'{}'", text), .todo = ""},
+        Error::Kind::kUsage);
   return value;
 }
 

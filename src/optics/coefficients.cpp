@@ -17,7 +17,8 @@ Rgb ratio(const Rgb& a, const Rgb& b, double empty) {
   return result;
 }
 
-[[noreturn]] void refuse(std::string_view where, std::string_view name, std::string expected, std::string found) {
+[[noreturn]] void refuse(std::string_view where, std::string_view name, std::string expected,
+                         std::string found) {
   throw Error({.where = where.empty() ? std::string(name) : fmt::format("{}: {}", where, name),
                .expected = std::move(expected),
                .found = std::move(found),
@@ -27,8 +28,12 @@ Rgb ratio(const Rgb& a, const Rgb& b, double empty) {
 
 }  // namespace
 
-Rgb Coefficients::albedo_p() const { return ratio(sigma_sp(), sigma_tp(), 0); }
-Rgb Coefficients::albedo() const { return ratio(sigma_s, sigma_t(), 0); }
+Rgb Coefficients::albedo_p() const {
+  return ratio(sigma_sp(), sigma_tp(), 0);
+}
+Rgb Coefficients::albedo() const {
+  return ratio(sigma_s, sigma_t(), 0);
+}
 Rgb Coefficients::sigma_tr() const {
   const Rgb product = 3.0 * sigma_a * sigma_tp();
   return {std::sqrt(product.x), std::sqrt(product.y), std::sqrt(product.z)};
@@ -55,8 +60,10 @@ void validate(const Coefficients& coefficients, std::string_view where) {
   if (!(std::abs(coefficients.g) < 1))
     refuse(where, "g", "a mean cosine between -1 and 1, both excluded", fmt::format("{}", coefficients.g));
   if (!(coefficients.eta >= 1 && coefficients.eta <= 4))
-    refuse(where, "eta", "a refractive index from 1 to 4 (inside over outside; a translucent solid is never thinner "
-           "than the air around it)", fmt::format("{}", coefficients.eta));
+    refuse(where, "eta",
+           "a refractive index from 1 to 4 (inside over outside; a translucent solid is never thinner "
+           "than the air around it)",
+           fmt::format("{}", coefficients.eta));
 }
 
 Rgb albedoFromColour(const Rgb& colour, double g) {

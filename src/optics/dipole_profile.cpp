@@ -24,7 +24,8 @@ class DipoleProfile final : public Profile {
     Rgb result(0);
     for (int c = 0; c < 3; ++c)
       if (albedo_p_[c] > 0)
-        result[c] = albedo_p_[c] / (4 * std::numbers::pi) * (flux(r, zr_[c], sigma_tr_[c]) + flux(r, zv_[c], sigma_tr_[c]));
+        result[c] = albedo_p_[c] / (4 * std::numbers::pi) *
+                    (flux(r, zr_[c], sigma_tr_[c]) + flux(r, zv_[c], sigma_tr_[c]));
     return result;
   }
 

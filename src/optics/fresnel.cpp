@@ -8,8 +8,8 @@
 namespace lychnite {
 namespace {
 
-/// Integral of f over [0, 1] by the composite midpoint rule after mu = t^2 (3 - 2 t), which flattens both ends, where
-/// the Fresnel terms have square-root behaviour.
+/// Integral of f over [0, 1] by the composite midpoint rule after mu = t^2 (3 - 2 t), which flattens both
+/// ends, where the Fresnel terms have square-root behaviour.
 template <class F>
 double integrateUnit(F f) {
   constexpr int kSteps = 2048;
@@ -34,7 +34,9 @@ double fresnelReflectance(double cosI, double eta) {
   return 0.5 * (parallel * parallel + perpendicular * perpendicular);
 }
 
-double fresnelTransmittance(double cosI, double eta) { return 1 - fresnelReflectance(cosI, eta); }
+double fresnelTransmittance(double cosI, double eta) {
+  return 1 - fresnelReflectance(cosI, eta);
+}
 
 double diffuseFresnelReflectance(double eta) {
   if (eta == 1) return 0;
@@ -54,9 +56,9 @@ double internalMoment(double eta, int i) {
   const double total = std::pow(muCritical, i + 1) / (i + 1);
   const double width = 1 - muCritical;
   return total + width * integrateUnit([&](double t) {
-           const double mu = muCritical + width * t;
-           return fresnelReflectance(mu, 1 / eta) * std::pow(mu, i);
-         });
+                   const double mu = muCritical + width * t;
+                   return fresnelReflectance(mu, 1 / eta) * std::pow(mu, i);
+                 });
 }
 
 double exitLobe(double cosO, double eta) {

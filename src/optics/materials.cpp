@@ -10,7 +10,8 @@
 namespace lychnite {
 namespace {
 
-/// Reduced scattering and absorption in 1/mm as tabulated in [J01] (sigma_sp with g = 0 makes the same medium).
+/// Reduced scattering and absorption in 1/mm as tabulated in [J01] (sigma_sp with g = 0 makes the same
+/// medium).
 NamedCoefficients jensen(const char* name, Rgb sigma_sp, Rgb sigma_a, double eta) {
   return {name, {.sigma_s = sigma_sp, .sigma_a = sigma_a, .g = 0, .eta = eta}, "Jensen2001"};
 }
@@ -48,7 +49,8 @@ const NamedCoefficients& findMaterial(std::string_view name, std::string_view wh
   throw Error({.where = std::string(where),
                .expected = "",
                .found = fmt::format("there is no material '{}'", name),
-               .todo = nearest.empty() ? "`lychnite materials` lists them" : fmt::format("did you mean '{}'?", nearest)},
+               .todo = nearest.empty() ? "`lychnite materials` lists them"
+                                       : fmt::format("did you mean '{}'?", nearest)},
               Error::Kind::kUsage);
 }
 

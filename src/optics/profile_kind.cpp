@@ -13,7 +13,9 @@ constexpr std::array<const char*, 4> kNames{"dipole", "better-dipole", "normaliz
 
 }  // namespace
 
-std::string profileName(ProfileKind kind) { return kNames[size_t(kind)]; }
+std::string profileName(ProfileKind kind) {
+  return kNames[size_t(kind)];
+}
 
 ProfileKind parseProfileKind(std::string_view name, std::string_view where) {
   for (size_t i = 0; i < kNames.size(); ++i)

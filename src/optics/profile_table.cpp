@@ -7,8 +7,8 @@
 namespace lychnite {
 namespace {
 
-/// Three times the shortest core of the channels that scatter: half of the entries lie within that of the peak, and
-/// the rest reaches to infinity.
+/// Three times the shortest core of the channels that scatter: half of the entries lie within that of the
+/// peak, and the rest reaches to infinity.
 double tableScale(const Profile& profile, double unit) {
   const Rgb core = profile.coreLength();
   double shortest = 0;

@@ -26,7 +26,8 @@ double smithVisibility(double cosI, double cosO, double alpha) {
 
 }  // namespace
 
-Rgb surfaceResponse(const SurfaceCoat& coat, const glm::dvec3& n, const glm::dvec3& wo, const glm::dvec3& wi) {
+Rgb surfaceResponse(const SurfaceCoat& coat, const glm::dvec3& n, const glm::dvec3& wo,
+                    const glm::dvec3& wi) {
   const double cosI = glm::dot(n, wi), cosO = glm::dot(n, wo);
   if (cosI <= 0 || cosO <= 0) return Rgb(0);
   const double alpha = coat.roughness * coat.roughness;

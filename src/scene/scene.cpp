@@ -30,8 +30,10 @@ CameraFrame lookAt(const glm::dvec3& position, const glm::dvec3& target, const g
   frame.position = position;
   frame.forward = glm::normalize(target - position);
   glm::dvec3 side = glm::cross(frame.forward, up);
-  // Looking along `up`, any other axis will do; +z keeps the picture upright when the camera comes over the top.
-  if (glm::length(side) < 1e-9 * glm::length(up)) side = glm::cross(frame.forward, glm::dvec3(0, 0, frame.forward.y > 0 ? 1 : -1));
+  // Looking along `up`, any other axis will do; +z keeps the picture upright when the camera comes over the
+  // top.
+  if (glm::length(side) < 1e-9 * glm::length(up))
+    side = glm::cross(frame.forward, glm::dvec3(0, 0, frame.forward.y > 0 ? 1 : -1));
   frame.right = glm::normalize(side);
   frame.up = glm::cross(frame.right, frame.forward);
   return frame;

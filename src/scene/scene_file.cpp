@@ -30,16 +30,18 @@ bool looksLikeAFile(const std::string& model) {
   throw Error({.where = model,
                .expected = "a mesh file or a built-in model",
                .found = "neither",
-               .todo = nearest.empty() ? "`lychnite models` lists the built-in ones" : fmt::format("did you mean '{}'?", nearest)});
+               .todo = nearest.empty() ? "`lychnite models` lists the built-in ones"
+                                       : fmt::format("did you mean '{}'?", nearest)});
 }
 
 void reportRepairs(const LoadedMesh& loaded, const std::string& model, const LogSink& log) {
   const RepairReport& r = loaded.report;
   if (r.duplicate_vertices || r.degenerate_triangles || r.unused_vertices || r.flipped)
     logTo(log, LogLevel::kInfo,
-          fmt::format("{}: welded {} duplicate vertices, dropped {} degenerate triangles and {} unused vertices{}", model,
-                      r.duplicate_vertices, r.degenerate_triangles, r.unused_vertices,
-                      r.flipped ? ", turned the inside out" : ""));
+          fmt::format(
+              "{}: welded {} duplicate vertices, dropped {} degenerate triangles and {} unused vertices{}",
+              model, r.duplicate_vertices, r.degenerate_triangles, r.unused_vertices,
+              r.flipped ? ", turned the inside out" : ""));
 }
 
 }  // namespace
@@ -64,7 +66,9 @@ Scene readScene(const fs::path& path, const LogSink& log) {
   if (fs::is_directory(path, code))
     throw Error({.where = path.string(), .expected = "a scene file", .found = "a folder", .todo = ""});
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error({.where = path.string(), .expected = "", .found = "cannot be opened", .todo = "check the name"});
+  if (!file)
+    throw Error(
+        {.where = path.string(), .expected = "", .found = "cannot be opened", .todo = "check the name"});
   std::ostringstream text;
   text << file.rdbuf();
   try {
@@ -75,6 +79,8 @@ Scene readScene(const fs::path& path, const LogSink& log) {
   }
 }
 
-void writeScene(const Scene& scene, const fs::path& path) { writeTextAtomically(path, sceneToToml(scene)); }
+void writeScene(const Scene& scene, const fs::path& path) {
+  writeTextAtomically(path, sceneToToml(scene));
+}
 
 }  // namespace lychnite

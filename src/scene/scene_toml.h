@@ -8,7 +8,8 @@
 
 namespace lychnite {
 
-/// Parses a scene's text. `path` names it in errors ("path:line") and gives the folder models are relative to.
+/// Parses a scene's text. `path` names it in errors ("path:line") and gives the folder models are relative
+/// to.
 Scene sceneFromToml(const std::string& text, const std::filesystem::path& path, const LogSink& log);
 
 }  // namespace lychnite

@@ -17,12 +17,18 @@ const std::vector<std::string>& methodNames() {
   return names;
 }
 
-[[noreturn]] void refuse(std::string_view where, std::string expected, std::string found, std::string todo = "") {
-  throw Error({.where = std::string(where), .expected = std::move(expected), .found = std::move(found), .todo = std::move(todo)},
+[[noreturn]] void refuse(std::string_view where, std::string expected, std::string found,
+                         std::string todo = "") {
+  throw Error({.where = std::string(where),
+               .expected = std::move(expected),
+               .found = std::move(found),
+               .todo = std::move(todo)},
               Error::Kind::kUsage);
 }
 
-std::string joined(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ", ")); }
+std::string joined(const std::vector<std::string>& names) {
+  return fmt::format("{}", fmt::join(names, ", "));
+}
 
 std::string suggestion(std::string_view name, const std::vector<std::string>& names) {
   const std::string nearest = nearestName(name, names);
@@ -43,7 +49,9 @@ Method parseMethod(std::string_view name, std::string_view where) {
   return Method(at - names.begin());
 }
 
-std::string methodName(Method method) { return methodNames()[size_t(method)]; }
+std::string methodName(Method method) {
+  return methodNames()[size_t(method)];
+}
 
 bool isReference(Method method) {
   return method == Method::kDipole || method == Method::kHierarchical || method == Method::kWalk;
@@ -53,10 +61,15 @@ Components parseComponents(std::string_view list, std::string_view where) {
   const std::vector<std::string> names{"multiple", "single", "surface"};
   Components result{false, false, false};
   for (const std::string& part : split(list, ',')) {
-    if (part == "multiple") result.multiple = true;
-    else if (part == "single") result.single = true;
-    else if (part == "surface") result.surface = true;
-    else refuse(where, "a list of multiple, single and surface", fmt::format("'{}'", part), suggestion(part, names));
+    if (part == "multiple")
+      result.multiple = true;
+    else if (part == "single")
+      result.single = true;
+    else if (part == "surface")
+      result.surface = true;
+    else
+      refuse(where, "a list of multiple, single and surface", fmt::format("'{}'", part),
+             suggestion(part, names));
   }
   return result;
 }
@@ -69,11 +82,14 @@ std::string componentsName(const Components& components) {
   return fmt::format("{}", fmt::join(parts, ","));
 }
 
-bool RenderSettings::wants(std::string_view aov) const { return std::find(aovs.begin(), aovs.end(), aov) != aovs.end(); }
+bool RenderSettings::wants(std::string_view aov) const {
+  return std::find(aovs.begin(), aovs.end(), aov) != aovs.end();
+}
 
 void validate(const RenderSettings& settings) {
   if (settings.width < 1 || settings.height < 1 || settings.width > 16384 || settings.height > 16384)
-    refuse("resolution", "WxH with both from 1 to 16384", fmt::format("{}x{}", settings.width, settings.height));
+    refuse("resolution", "WxH with both from 1 to 16384",
+           fmt::format("{}x{}", settings.width, settings.height));
   if (settings.mapSize < 128 || settings.mapSize > 4096)
     refuse("map", "a size from 128 to 4096 texels", fmt::format("{}", settings.mapSize));
   requireRange(settings.singleSamples, 1, 256, "single samples");
@@ -82,12 +98,14 @@ void validate(const RenderSettings& settings) {
   requireRange(settings.timeLimit, 0, 1e9, "time");
   requireRange(settings.noise, 0, 10, "noise");
   requireRange(settings.threads, 0, 1024, "threads");
-  const std::vector<std::string> known{"multiple", "single", "surface", "depth", "normal", "lights", "radiosity", "stderr"};
+  const std::vector<std::string> known{"multiple", "single", "surface",   "depth",
+                                       "normal",   "lights", "radiosity", "stderr"};
   for (const std::string& aov : settings.aovs) {
     if (std::find(known.begin(), known.end(), aov) == known.end())
       refuse("aov", joined(known), fmt::format("'{}'", aov), suggestion(aov, known));
     if (aov == "stderr" && settings.method != Method::kWalk)
-      refuse("aov", "a method with noise (walk) for 'stderr'", fmt::format("'{}'", methodName(settings.method)));
+      refuse("aov", "a method with noise (walk) for 'stderr'",
+             fmt::format("'{}'", methodName(settings.method)));
     if (aov == "lights" && isReference(settings.method))
       refuse("aov", "a real-time method for 'lights'", fmt::format("'{}'", methodName(settings.method)));
   }

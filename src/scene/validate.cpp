@@ -10,11 +10,14 @@ namespace lychnite {
 namespace {
 
 [[noreturn]] void refuse(std::string where, std::string expected, std::string found) {
-  throw Error({.where = std::move(where), .expected = std::move(expected), .found = std::move(found), .todo = ""},
-              Error::Kind::kUsage);
+  throw Error(
+      {.where = std::move(where), .expected = std::move(expected), .found = std::move(found), .todo = ""},
+      Error::Kind::kUsage);
 }
 
-bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool finite(const glm::dvec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 void requireRange(double value, double low, double high, const std::string& where) {
   if (!(value >= low && value <= high))
@@ -68,7 +71,8 @@ void checkCamera(const Camera& camera) {
   requireFinite(pinhole.target, "camera target");
   requireFinite(pinhole.up, "camera up");
   requireRange(pinhole.fov, 0.01, 170, "camera fov (degrees)");
-  if (glm::distance(pinhole.position, pinhole.target) == 0) refuse("camera", "a target away from its position", "both the same");
+  if (glm::distance(pinhole.position, pinhole.target) == 0)
+    refuse("camera", "a target away from its position", "both the same");
   if (glm::length(pinhole.up) == 0) refuse("camera up", "a direction", "0, 0, 0");
 }
 
@@ -82,11 +86,15 @@ std::string nameOf(const Object& object, size_t index) {
 
 void validate(const Scene& scene) {
   if (scene.objects.empty()) refuse("scene", "at least one object", "none");
-  // The light-space passes store an object's number in a float beside its normal; 250 is far below where that ends.
-  if (scene.objects.size() > 250) refuse("scene", "at most 250 objects", fmt::format("{}", scene.objects.size()));
+  // The light-space passes store an object's number in a float beside its normal; 250 is far below where that
+  // ends.
+  if (scene.objects.size() > 250)
+    refuse("scene", "at most 250 objects", fmt::format("{}", scene.objects.size()));
   if (scene.lights.size() > 64) refuse("scene", "at most 64 lights", fmt::format("{}", scene.lights.size()));
-  for (size_t i = 0; i < scene.objects.size(); ++i) checkObject(scene.objects[i], nameOf(scene.objects[i], i));
-  for (size_t i = 0; i < scene.lights.size(); ++i) checkLight(scene.lights[i], fmt::format("light {}", i + 1));
+  for (size_t i = 0; i < scene.objects.size(); ++i)
+    checkObject(scene.objects[i], nameOf(scene.objects[i], i));
+  for (size_t i = 0; i < scene.lights.size(); ++i)
+    checkLight(scene.lights[i], fmt::format("light {}", i + 1));
   checkCamera(scene.camera);
   requireRadiance(scene.background, "background");
   requireRadiance(scene.ambient, "ambient");

@@ -6,8 +6,8 @@
 
 namespace lychnite {
 
-/// Reports long work to the caller and asks whether to go on. Copyable; an empty one is silent and never stops.
-/// Called from one thread at a time by the library.
+/// Reports long work to the caller and asks whether to go on. Copyable; an empty one is silent and never
+/// stops. Called from one thread at a time by the library.
 class Progress {
  public:
   struct Update {

@@ -31,13 +31,14 @@ struct Coefficients {
   bool operator==(const Coefficients&) const = default;
 };
 
-/// Throws Error (Kind::kUsage, prefix `where`) for negative, NaN or infinite coefficients, g outside (-1, 1), eta
-/// outside [1, 4] (with the reason: eta is inside over outside, and nothing here is an air bubble in glass).
+/// Throws Error (Kind::kUsage, prefix `where`) for negative, NaN or infinite coefficients, g outside (-1, 1),
+/// eta outside [1, 4] (with the reason: eta is inside over outside, and nothing here is an air bubble in
+/// glass).
 void validate(const Coefficients& coefficients, std::string_view where);
 
-/// Colour to coefficients: the reduced single-scattering albedo alpha whose half-space has diffuse albedo `colour`
-/// (each channel in [0, 1)) at asymmetry g. Van de Hulst as fitted by Kulla & Conty 2017:
-/// s = 4.09712 + 4.20863 A - sqrt(9.59217 + 41.6808 A + 17.7126 A^2), alpha = (1 - s^2)/(1 - g s^2).
+/// Colour to coefficients: the reduced single-scattering albedo alpha whose half-space has diffuse albedo
+/// `colour` (each channel in [0, 1)) at asymmetry g. Van de Hulst as fitted by Kulla & Conty 2017: s
+/// = 4.09712 + 4.20863 A - sqrt(9.59217 + 41.6808 A + 17.7126 A^2), alpha = (1 - s^2)/(1 - g s^2).
 Rgb albedoFromColour(const Rgb& colour, double g);
 
 /// Coefficients from a diffuse colour and a mean free path (mm, per channel, > 0).

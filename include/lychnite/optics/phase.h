@@ -4,7 +4,8 @@
 
 namespace lychnite {
 
-/// Henyey-Greenstein phase function, per steradian. `cosTheta` between the directions of travel before and after.
+/// Henyey-Greenstein phase function, per steradian. `cosTheta` between the directions of travel before and
+/// after.
 double henyeyGreenstein(double cosTheta, double g);
 
 /// Samples cosTheta of henyeyGreenstein from a uniform number u in [0, 1).

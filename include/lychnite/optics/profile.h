@@ -17,7 +17,8 @@ class Profile {
   virtual ~Profile() = default;
   virtual Rgb Rd(double r) const = 0;
   virtual Rgb P(double r) const = 0;
-  /// Length in mm, per channel, over which the profile's peak is flat (zr of the dipole): sets the table's scale.
+  /// Length in mm, per channel, over which the profile's peak is flat (zr of the dipole): sets the table's
+  /// scale.
   virtual Rgb coreLength() const = 0;
   /// 1/mm, per channel: the slowest exponential decay of the tail, 0 where it only falls as a power.
   virtual Rgb tailDecay() const = 0;
@@ -35,8 +36,8 @@ ProfileKind parseProfileKind(std::string_view name, std::string_view where);
 std::unique_ptr<Profile> makeDipole(const Coefficients& coefficients);
 
 /// Rd and P of any profile as a table that fits a texture: `size` entries, entry i at u = (i + .5)/size,
-/// r = scale u / (1 - u), values linear in u between entries. Lengths in `unit` mm (a table in object units for
-/// the GPU passes unit = object size; Rd is then per unit^2, P has no unit).
+/// r = scale u / (1 - u), values linear in u between entries. Lengths in `unit` mm (a table in object units
+/// for the GPU passes unit = object size; Rd is then per unit^2, P has no unit).
 class ProfileTable {
  public:
   ProfileTable(const Profile& profile, double unit, int size = 2048);

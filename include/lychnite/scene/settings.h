@@ -29,12 +29,12 @@ struct RenderSettings {
   Method method = Method::kAdaptive;
   ProfileKind profile = ProfileKind::kDipole;
   Components components;
-  int singleSamples = 8;    ///< along the refracted ray (real-time methods), 1..256
-  int mapSize = 512;        ///< light-space map, 128..4096
-  double samples = 16;      ///< walk: photons per pixel
-  double tolerance = 0.005; ///< dipole: relative error to refine to
-  double timeLimit = 0;     ///< walk: seconds, 0 = none
-  double noise = 0;         ///< walk: relative noise to stop at, 0 = none
+  int singleSamples = 8;     ///< along the refracted ray (real-time methods), 1..256
+  int mapSize = 512;         ///< light-space map, 128..4096
+  double samples = 16;       ///< walk: photons per pixel
+  double tolerance = 0.005;  ///< dipole: relative error to refine to
+  double timeLimit = 0;      ///< walk: seconds, 0 = none
+  double noise = 0;          ///< walk: relative noise to stop at, 0 = none
   uint64_t seed = 1;
   int threads = 0;  ///< 0 = all cores
   /// Layers beside colour and alpha: multiple, single, surface, depth, normal, lights, radiosity, stderr.

@@ -34,9 +34,9 @@ struct RenderStats {
   size_t mapBytes = 0, gpuBytes = 0;  ///< light-space maps; everything this renderer holds on the device
 };
 
-/// The real-time renderer: scene in, picture out, no window. Call render() again and again; only what changed since the
-/// last call is uploaded or redrawn, and nothing is precomputed: light, material, size, camera and meshes may change
-/// every frame. One thread at a time, the one that made it.
+/// The real-time renderer: scene in, picture out, no window. Call render() again and again; only what changed
+/// since the last call is uploaded or redrawn, and nothing is precomputed: light, material, size, camera and
+/// meshes may change every frame. One thread at a time, the one that made it.
 class Renderer {
  public:
   /// Throws Error (Kind::kDevice) when no OpenGL 4.5 is to be had.
