@@ -35,6 +35,20 @@ ProfileKind parseProfileKind(std::string_view name, std::string_view where);
 /// The standard dipole [J01 eq. 4], P in closed form (docs/physics.md). Channels with sigma_sp = 0 are 0.
 std::unique_ptr<Profile> makeDipole(const Coefficients& coefficients);
 
+/// d'Eon 2012, "A Better Dipole": Grosjean's diffusion coefficient, exact internal moments and an exitance of
+/// fluence and flux; P in closed form. Its alpha_p^2 leaves the first order out. Channels with sigma_sp = 0
+/// are 0.
+std::unique_ptr<Profile> makeBetterDipole(const Coefficients& coefficients);
+
+/// Christensen & Burley 2015, the form for diffuse transmission at the surface, with l = 1/sigma_tp, their
+/// albedo from the medium (the inverse of albedoFromColour) and the total corrected for internal reflection
+/// (Saunderson 1942). P is exact. Rd grows like 1/r: below a thousandth of coreLength it is its mean over
+/// that disc, so that Rd(0) is finite and the total is kept. Channels with sigma_sp = 0 are 0.
+std::unique_ptr<Profile> makeNormalizedDiffusion(const Coefficients& coefficients);
+
+/// The profile of --profile. Throws Error (Kind::kUsage) for kTabulated, which no formula gives.
+std::unique_ptr<Profile> makeProfile(ProfileKind kind, const Coefficients& coefficients);
+
 /// Rd and P of any profile as a table that fits a texture: `size` entries, entry i at u = (i + .5)/size,
 /// r = scale u / (1 - u), values linear in u between entries. Lengths in `unit` mm (a table in object units
 /// for the GPU passes unit = object size; Rd is then per unit^2, P has no unit).
