@@ -19,6 +19,8 @@ const auto& recipes() {
       {{"sphere", "a finely subdivided ball", 20480, 10242}, builtin::makeSphere},
       {{"slab", "a plate of 1 x 1 x 0.1 with sharp edges, thin along z", 7680, 4182}, builtin::makeSlab},
       {{"disc", "a flat round disc facing +z; the one open mesh", 32768, 16641}, builtin::makeDisc},
+      {{"knot", "a trefoil tied of a round tube", 30720, 15360}, builtin::makeKnot},
+      {{"stone", "a rounded faceted stone", 1114, 559}, builtin::makeStone},
   });
   return all;
 }

@@ -8,5 +8,7 @@ namespace lychnite::builtin {
 Mesh makeSphere();
 Mesh makeSlab();
 Mesh makeDisc();
+Mesh makeKnot();
+Mesh makeStone();
 
 }  // namespace lychnite::builtin

@@ -22,7 +22,7 @@ TEST(BuiltinModels, ListsNamesThatAreMade) {
     EXPECT_EQ(mesh->positions.size(), model.vertices) << model.name;
     EXPECT_EQ(mesh->normals.size(), model.vertices) << model.name;
   }
-  EXPECT_EQ(names, (std::vector<std::string>{"sphere", "slab", "disc"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"sphere", "slab", "disc", "knot", "stone"}));
 }
 
 TEST(BuiltinModels, UnknownNameIsNothing) {
@@ -48,7 +48,9 @@ TEST(BuiltinModels, ClosedOfOnePieceAndFacingOutwards) {
     EXPECT_EQ(info.closed, model.name != "disc") << model.name;
     EXPECT_EQ(info.non_manifold_edges, 0u) << model.name;
     EXPECT_EQ(info.components, 1u) << model.name;
-    if (info.closed) EXPECT_GT(info.volume, 0) << model.name;
+    if (info.closed) {
+      EXPECT_GT(info.volume, 0) << model.name;
+    }
   }
 }
 
