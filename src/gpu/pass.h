@@ -11,7 +11,7 @@
 
 namespace lychnite::gpu {
 
-enum class DepthTest { kOff, kLess, kLessEqual, kEqual, kGreater };
+enum class DepthTest { kOff, kAlways, kLess, kLessEqual, kEqual, kGreater };
 enum class Blend { kNone, kAdd, kMin, kMax };
 enum class Cull { kNone, kBack, kFront };
 
@@ -23,7 +23,7 @@ struct Rect {
 /// Everything a pass fixes of the pipeline. Nothing is inherited from the pass before.
 struct PassState {
   DepthTest depthTest = DepthTest::kOff;
-  bool depthWrite = false;  ///< has an effect only with a depth test
+  bool depthWrite = false;  ///< has no effect with kOff
   Blend blend = Blend::kNone;
   Cull cull = Cull::kNone;
   std::array<bool, 4> colourMask{true, true, true, true};

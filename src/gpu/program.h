@@ -62,17 +62,19 @@ class Program : public Object {
 
  private:
   friend struct ProgramAccess;
-  struct Unit {
-    int unit = 0;
-    uint32_t texture = 0;
+  /// A texture unit or block binding and what is bound there.
+  struct Slot {
+    int number = 0;
+    uint32_t object = 0;
   };
   int location(std::string_view uniform) const;
   void readUniforms();
+  void readBlocks();
   void bind() const;
 
   std::map<std::string, int, std::less<>> locations_;
-  std::map<std::string, Unit, std::less<>> units_;
-  std::map<std::string, Unit, std::less<>> blocks_;
+  std::map<std::string, Slot, std::less<>> units_;
+  std::map<std::string, Slot, std::less<>> blocks_;
 };
 
 }  // namespace lychnite::gpu

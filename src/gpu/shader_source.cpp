@@ -1,0 +1,144 @@
+#include "gpu/shader_source.h"
+
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <sstream>
+
+#include "lychnite/base/error.h"
+
+namespace lychnite::gpu {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string header(GlslDialect dialect, const ShaderDefines& defines) {
+  std::string text;
+  if (dialect == GlslDialect::kDesktop450) {
+    text = "#version 450 core\n";
+  } else {
+    text =
+        "#version 300 es\n"
+        "#define LYCHNITE_ES 1\n"
+        "precision highp float;\n"
+        "precision highp int;\n"
+        "precision highp sampler2D;\n"
+        "precision highp usampler2D;\n";
+  }
+  text += "#define LYCHNITE_GLSL 1\n#define OUT(T) out T\n#define INOUT(T) inout T\n";
+  for (const auto& [name, value] : defines) text += "#define " + name + " " + value + "\n";
+  return text;
+}
+
+/// The quoted path when the line is an include.
+std::string includedFile(const std::string& line) {
+  static const std::regex pattern(R"re(^\s*#\s*include\s*"([^"]+)".*)re");
+  std::smatch match;
+  return std::regex_match(line, match, pattern) ? match[1].str() : "";
+}
+
+/// Puts files one into another and remembers which have been seen.
+class Assembler {
+ public:
+  Assembler(const fs::path& root, ShaderSource& source) : root_(root), source_(source) {}
+
+  /// `from` names the including line, for the error message.
+  void add(const std::string& file, const std::string& from) {
+    std::ifstream in(root_ / file);
+    if (!in || !fs::is_regular_file(root_ / file))
+      throw Error({.where = from,
+                   .expected = "a readable shader file",
+                   .found = "'" + (root_ / file).string() + "'",
+                   .todo = ""},
+                  Error::Kind::kDevice);
+    const size_t index = source_.files.size();
+    source_.files.push_back(file);
+    source_.text += lineDirective(1, index);
+    std::string line;
+    for (int number = 1; std::getline(in, line); ++number) {
+      const std::string included = includedFile(line);
+      if (included.empty()) {
+        source_.text += line + "\n";
+        continue;
+      }
+      if (!seen(included)) add(included, file + ":" + std::to_string(number));
+      source_.text += lineDirective(number + 1, index);
+    }
+  }
+
+ private:
+  static std::string lineDirective(int line, size_t file) {
+    return "#line " + std::to_string(line) + " " + std::to_string(file) + "\n";
+  }
+  bool seen(const std::string& file) const {
+    for (const std::string& known : source_.files)
+      if (fs::path(known).lexically_normal() == fs::path(file).lexically_normal()) return true;
+    return false;
+  }
+
+  const fs::path& root_;
+  ShaderSource& source_;
+};
+
+bool parseMessage(const std::string& line, const std::vector<std::string>& files, ShaderMessage& message) {
+  static const std::regex mesa(R"re((\d+):(\d+)\(\d+\): (?:preprocessor )?error: (.*))re");
+  static const std::regex nvidia(R"re((\d+)\((\d+)\) : error (.*))re");
+  static const std::regex angle(R"re(ERROR: (\d+):(\d+): (.*))re");
+  for (const std::regex* pattern : {&mesa, &nvidia, &angle}) {
+    std::smatch match;
+    if (!std::regex_search(line, match, *pattern)) continue;
+    const size_t file = std::stoul(match[1].str());
+    if (file >= files.size()) continue;
+    message = {files[file] + ":" + match[2].str(), match[3].str()};
+    return true;
+  }
+  return false;
+}
+
+fs::path besideProgram() {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  return error ? fs::path() : (program.parent_path() / "../share/lychnite/shaders").lexically_normal();
+}
+
+}  // namespace
+
+ShaderSource assembleShader(const fs::path& root, const std::string& file, GlslDialect dialect,
+                            const ShaderDefines& defines) {
+  ShaderSource source;
+  source.text = header(dialect, defines);
+  Assembler(root, source).add(file, "shaders");
+  return source;
+}
+
+ShaderMessage firstError(const std::string& log, const std::vector<std::string>& files) {
+  ShaderMessage message;
+  std::istringstream lines(log);
+  std::string fallback;
+  for (std::string line; std::getline(lines, line);) {
+    if (parseMessage(line, files, message)) return message;
+    if (fallback.empty() && line.find_first_not_of(" \t\r") != std::string::npos) fallback = line;
+  }
+  return {files.empty() ? "" : files.front(), fallback.empty() ? "an error without a message" : fallback};
+}
+
+fs::path findShaderDir() {
+  const char* chosen = std::getenv("LYCHNITE_SHADER_DIR");
+  std::vector<fs::path> places{besideProgram(), LYCHNITE_BUILD_SHADER_DIR, LYCHNITE_INSTALL_SHADER_DIR};
+  // A folder that was asked for by name and is not there is a mistake to report, not to paper over.
+  if (chosen && *chosen) places = {chosen};
+  std::string looked;
+  for (const fs::path& place : places) {
+    std::error_code error;
+    if (fs::is_directory(place / "pass", error)) return place;
+    looked += (looked.empty() ? "" : ", ") + place.string();
+  }
+  throw Error({.where = "shaders",
+               .expected = "a folder with lib/ and pass/",
+               .found = "none at " + looked,
+               .todo = "reinstall, or set LYCHNITE_SHADER_DIR"},
+              Error::Kind::kDevice);
+}
+
+}  // namespace lychnite::gpu
