@@ -1,0 +1,95 @@
+#include "lychnite/mesh/load.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+
+#include "lychnite/base/error.h"
+#include "mesh/read/file_bytes.h"
+#include "mesh/read/readers.h"
+
+namespace lychnite {
+namespace {
+
+struct Format {
+  std::string_view extension, name;
+  Mesh (*read)(std::string_view bytes, const std::filesystem::path& path);
+};
+
+template <Mesh (*kRead)(std::string_view, const std::string&)>
+Mesh withPathAsText(std::string_view bytes, const std::filesystem::path& path) {
+  return kRead(bytes, path.string());
+}
+
+constexpr std::array kFormats = {
+    Format{".ply", "PLY", withPathAsText<readPly>},
+    Format{".obj", "OBJ", withPathAsText<readObj>},
+    Format{".stl", "STL", withPathAsText<readStl>},
+    Format{".off", "OFF", withPathAsText<readOff>},
+    Format{".3ds", "3DS", withPathAsText<read3ds>},
+    Format{".gltf", "glTF", readGltf},
+    Format{".glb", "glTF", readGltf},
+};
+
+const Format& formatOf(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension)
+    if (c >= 'A' && c <= 'Z') c += 'a' - 'A';
+  std::string known;
+  for (const Format& format : kFormats) {
+    if (format.extension == extension) return format;
+    known += (known.empty() ? "" : " ") + std::string(format.extension);
+  }
+  throw Error({.where = path.string(),
+               .expected = "a mesh file (" + known + ")",
+               .found = extension.empty() ? "no extension" : "the extension '" + extension + "'",
+               .todo = "convert the model to one of them"});
+}
+
+// The format that a file's first bytes give away, or "".
+std::string_view sniff(std::string_view bytes) {
+  if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return "PLY";
+  if (bytes.starts_with("glTF")) return "glTF";
+  if (bytes.starts_with("MM") && bytes.size() > 3) return "3DS";
+  if (bytes.starts_with("solid ") || bytes.starts_with("solid\n")) return "STL";
+  const std::string_view start = bytes.substr(0, bytes.find_first_of(" \r\n"));
+  if (start.size() <= 6 && start.ends_with("OFF")) return "OFF";
+  if (start.starts_with("{")) return "glTF";
+  if (start.starts_with("\x89PNG")) return "PNG (a picture)";
+  if (start.starts_with("PK\x03\x04")) return "ZIP (an archive)";
+  return "";
+}
+
+Mesh readAs(const Format& format, std::string_view bytes, const std::filesystem::path& path) {
+  try {
+    return format.read(bytes, path);
+  } catch (const Error&) {
+    const std::string_view looks_like = sniff(bytes);
+    if (looks_like.empty() || looks_like == format.name) throw;
+    throw Error({.where = path.string(),
+                 .expected = std::string(format.name) + ", as the extension says",
+                 .found = "content that begins like " + std::string(looks_like),
+                 .todo = "rename or convert the file"});
+  }
+}
+
+}  // namespace
+
+LoadedMesh loadMesh(const std::filesystem::path& path, const LogSink& log) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto secondsSoFar = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  refuseUnlessFile(path);
+  const Format& format = formatOf(path);
+  Mesh mesh = readAs(format, readWholeFile(path), path);
+  const double read_seconds = secondsSoFar();
+  LoadedMesh loaded = repairMesh(std::move(mesh), path.string());
+  loaded.seconds = secondsSoFar();
+  logTo(log, LogLevel::kDebug,
+        path.string() + ": read in " + std::to_string(read_seconds) + " s, repaired in " +
+            std::to_string(loaded.seconds - read_seconds) + " s");
+  return loaded;
+}
+
+}  // namespace lychnite
