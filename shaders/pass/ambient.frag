@@ -1,0 +1,23 @@
+// What a uniform surrounding of radiance `ambient` adds, unoccluded: the half-space answer, and its mirror image.
+#include "lib/fresnel.glsl"
+#include "pass/receiver.glsl"
+
+uniform vec3 ambient;
+uniform vec3 reflectance;  // of what lies under the coat, for light that has entered
+uniform float eta;
+uniform float piC;
+
+layout(location = 0) out vec4 radiance;
+
+void main() {
+  Receiver receivers[4];
+  int count = loadReceivers(receivers);
+  if (count == 0) discard;
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < count; ++i) {
+    float cosO = clamp(dot(receivers[i].normal, receivers[i].view), 0.0, 1.0);
+    float mirrored = fresnelReflectance(cosO, eta);
+    sum += receivers[i].weight * (vec3(mirrored) + reflectance * piC * exitLobe(cosO, eta, piC));
+  }
+  radiance = vec4(sum * ambient, 0.0);
+}

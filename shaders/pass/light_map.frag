@@ -1,0 +1,30 @@
+// The translucent shadow map. TWO_CHANNELS (Yao & Wang 2009 sect. 4.1): depth and (w_i . n). FIVE_CHANNELS
+// (Dachsbacher & Stamminger 2003): normal and irradiance, and depth. An occluder takes part with its depth only.
+#include "pass/light_view.glsl"
+
+in vec3 worldPosition;
+in vec3 worldNormal;
+uniform float occluder;  // 1: another object, which blocks the light
+
+#if LAYOUT == 2
+layout(location = 0) out vec2 depthAndCosine;
+#else
+layout(location = 0) out vec4 normalAndIrradiance;
+layout(location = 1) out float mapDepth;
+#endif
+
+void main() {
+  LightView view = lightView();
+  vec3 n = normalize(gl_FrontFacing ? worldNormal : -worldNormal);
+  float depth = dot(worldPosition - view.origin, view.forward);
+  float lit = 1.0 - occluder;
+#if LAYOUT == 2
+  // Interpolated normals can turn away at the silhouette: what is seen is lit, if only just.
+  float cosine = max(1e-4, -dot(lightTravel(view, worldPosition), n));
+  depthAndCosine = vec2(depth, cosine * lit);
+#else
+  vec3 irradiance = facingIrradiance(view, vec3(1.0), worldPosition);
+  normalAndIrradiance = vec4(n, irradiance.x) * lit;
+  mapDepth = depth;
+#endif
+}

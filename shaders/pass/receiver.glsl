@@ -1,0 +1,60 @@
+// The surface points of a pixel at which scattering is evaluated. The geometry texture holds 2 x 2 samples a pixel;
+// where all four lie on one smooth piece of surface they become one receiver, elsewhere (silhouettes, creases) each
+// is its own, so that edges are anti-aliased and what is inside them is not blurred.
+#include "lib/octahedral.glsl"
+
+uniform sampler2D geometry;
+uniform vec3 cameraPosition;
+uniform vec3 cameraRight;    // times the tangent of half the horizontal angle
+uniform vec3 cameraUp;       // times the tangent of half the vertical angle
+uniform vec3 cameraForward;
+uniform float objectNumber;
+
+struct Receiver {
+  vec3 position;  // scene units
+  vec3 normal;
+  vec3 view;      // towards the camera
+  float weight;   // share of the pixel
+};
+
+vec3 rayThrough(vec2 sampleCoordinate) {
+  vec2 ndc = sampleCoordinate / vec2(textureSize(geometry, 0)) * 2.0 - 1.0;
+  return cameraForward + cameraRight * ndc.x + cameraUp * ndc.y;
+}
+
+Receiver receiverAt(vec3 position, vec3 normal, float weight) {
+  return Receiver(position, normal, normalize(cameraPosition - position), weight);
+}
+
+// Receivers of this object in this pixel, 0 to 4.
+int loadReceivers(out Receiver receivers[4]) {
+  ivec2 first = ivec2(gl_FragCoord.xy) * 2;
+  vec3 positions[4];
+  vec3 normals[4];
+  int count = 0;
+  for (int i = 0; i < 4; ++i) {
+    ivec2 texel = first + ivec2(i & 1, i >> 1);
+    vec4 g = texelFetch(geometry, texel, 0);
+    if (g.w != objectNumber) continue;
+    positions[count] = cameraPosition + rayThrough(vec2(texel) + 0.5) * g.x;
+    normals[count] = octDecode(g.yz);
+    ++count;
+  }
+  if (count == 4) {
+    vec3 centre = 0.25 * (positions[0] + positions[1] + positions[2] + positions[3]);
+    vec3 normal = normals[0] + normals[1] + normals[2] + normals[3];
+    // One smooth piece: normals within about 25 degrees, points near one plane in terms of their own spread.
+    float spread = max(distance(positions[0], positions[3]), distance(positions[1], positions[2]));
+    float together = length(normal) * 0.25;
+    normal = normalize(normal);
+    float off = 0.0;
+    for (int i = 0; i < 4; ++i) off = max(off, abs(dot(positions[i] - centre, normal)));
+    if (together > 0.975 && off < 0.25 * spread) {
+      receivers[0] = receiverAt(centre, normal, 1.0);
+      return 1;
+    }
+  }
+  for (int i = 0; i < 4; ++i)
+    if (i < count) receivers[i] = receiverAt(positions[i], normals[i], 0.25);
+  return count;
+}

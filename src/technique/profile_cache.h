@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "gpu/texture.h"
+#include "lychnite/optics/profile.h"
+#include "technique/frame.h"
+#include "technique/key.h"
+
+namespace lychnite {
+
+/// The profile of every object's medium on the device: Rd per scene unit squared (rgb) over the coordinate of
+/// shaders/lib/profile.glsl, and what the CPU needs beside it. Made anew when medium, size or kind changes.
+class ProfileCache {
+ public:
+  struct Entry {
+    Key key;
+    std::optional<gpu::Texture> Rd;
+    float scale = 1;  ///< of the table's coordinate, scene units
+    Rgb total{0};     ///< P(0), the diffuse reflectance of the half-space
+    double piC = 1;   ///< pi C(eta) of the exit lobe
+  };
+  void update(const Frame& frame, ProfileKind kind);
+  const Entry& get(size_t object) const { return entries_[object]; }
+
+ private:
+  std::vector<Entry> entries_;
+};
+
+}  // namespace lychnite
