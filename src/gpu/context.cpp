@@ -85,14 +85,17 @@ Opened openDevice(const std::string& device, bool debug) {
                 Error::Kind::kUsage);
   const std::string missing = missingLibraries();
   if (!missing.empty()) throwNoDevice("a device", missing);
+  const CurrentKeeper keeper;  // a failed attempt leaves the caller's context current
   const std::vector<EglCandidate> all = candidates();
   return isIndex ? openIndex(all, index, debug) : openBest(all, device != "cpu", device != "gpu", debug);
 }
 
-void onMessage(GLenum, GLenum type, GLuint, GLenum severity, GLsizei length, const GLchar* text,
+void onMessage(GLenum source, GLenum type, GLuint, GLenum severity, GLsizei length, const GLchar* text,
                const void* user) {
   auto& state = *static_cast<ContextState*>(const_cast<void*>(user));
   const std::string message = length < 0 ? std::string(text) : std::string(text, static_cast<size_t>(length));
+  // What the shader compiler says reaches the user through Program's Error.
+  if (source == GL_DEBUG_SOURCE_SHADER_COMPILER) return;
   if (type == GL_DEBUG_TYPE_ERROR) {
     if (state.firstError.empty()) state.firstError = message;
   } else if (severity != GL_DEBUG_SEVERITY_NOTIFICATION) {

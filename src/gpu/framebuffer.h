@@ -17,9 +17,9 @@ struct Attachment {
 };
 
 struct FramebufferDesc {
-  std::string label;
-  std::vector<Attachment> colours;  ///< output location i of the fragment shader is colours[i]
-  std::optional<Attachment> depth;
+  std::string label{};
+  std::vector<Attachment> colours{};  ///< output location i of the fragment shader is colours[i]
+  std::optional<Attachment> depth{};
 };
 
 /// Where passes draw. The textures must outlive it (moving them is fine). Throws Error (kDevice) that names

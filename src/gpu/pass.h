@@ -27,8 +27,8 @@ struct PassState {
   Blend blend = Blend::kNone;
   Cull cull = Cull::kNone;
   std::array<bool, 4> colourMask{true, true, true, true};
-  std::optional<Rect> viewport;  ///< default: the whole framebuffer
-  std::optional<Rect> scissor;   ///< default: none
+  std::optional<Rect> viewport{};  ///< default: the whole framebuffer
+  std::optional<Rect> scissor{};   ///< default: none
 };
 
 /// The time during which draws go into one framebuffer under one state; a named group for the debugger.

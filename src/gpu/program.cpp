@@ -40,7 +40,14 @@ void compile(const Shader& shader, const ShaderSource& source, const std::string
   glGetShaderiv(shader.id, GL_INFO_LOG_LENGTH, &length);
   std::string log(static_cast<size_t>(length) + 1, '\0');
   glGetShaderInfoLog(shader.id, static_cast<GLsizei>(log.size()), nullptr, log.data());
-  throwBadShader(firstError(log.c_str(), source.files), label);
+  throwBadShader(firstError(log.c_str(), source), label);
+}
+
+/// The first line of a linker's log that says something.
+std::string linkMessage(const std::string& log) {
+  const size_t first = log.find_first_not_of(" \t\r\n");
+  if (first == std::string::npos) return "a link error without a message";
+  return log.substr(first, log.find('\n', first) - first);
 }
 
 void link(GLuint program, const ProgramDesc& desc) {
@@ -51,7 +58,7 @@ void link(GLuint program, const ProgramDesc& desc) {
   glGetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
   std::string log(static_cast<size_t>(length) + 1, '\0');
   glGetProgramInfoLog(program, static_cast<GLsizei>(log.size()), nullptr, log.data());
-  throwBadShader(firstError(log.c_str(), {desc.vertex + " + " + desc.fragment}), desc.label);
+  throwBadShader({desc.vertex + " + " + desc.fragment, linkMessage(log.c_str())}, desc.label);
 }
 
 void deleteProgram(uint32_t id) {

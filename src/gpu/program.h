@@ -21,10 +21,10 @@ class Buffer;
 class Texture;
 
 struct ProgramDesc {
-  std::string label;
-  std::string vertex, fragment;  ///< files below the shader folder, e.g. "pass/geometry.vert"
-  ShaderDefines defines;         ///< for both stages
-  std::filesystem::path root;    ///< the shader folder; empty: findShaderDir()
+  std::string label{};
+  std::string vertex{}, fragment{};  ///< files below the shader folder, e.g. "pass/geometry.vert"
+  ShaderDefines defines{};           ///< for both stages
+  std::filesystem::path root{};      ///< the shader folder; empty: findShaderDir()
 };
 
 /// A vertex and a fragment shader, linked. Throws Error (kDevice) with the file and line of the first

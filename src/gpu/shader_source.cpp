@@ -1,8 +1,8 @@
 #include "gpu/shader_source.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
-#include <map>
 #include <regex>
 #include <sstream>
 
@@ -52,25 +52,21 @@ class Assembler {
                    .found = "'" + (root_ / file).string() + "'",
                    .todo = ""},
                   Error::Kind::kDevice);
-    const size_t index = source_.files.size();
+    const int index = static_cast<int>(source_.files.size());
     source_.files.push_back(file);
-    source_.text += lineDirective(1, index);
     std::string line;
     for (int number = 1; std::getline(in, line); ++number) {
       const std::string included = includedFile(line);
       if (included.empty()) {
         source_.text += line + "\n";
-        continue;
+        source_.lines.push_back({index, number});
+      } else if (!seen(included)) {
+        add(included, file + ":" + std::to_string(number));
       }
-      if (!seen(included)) add(included, file + ":" + std::to_string(number));
-      source_.text += lineDirective(number + 1, index);
     }
   }
 
  private:
-  static std::string lineDirective(int line, size_t file) {
-    return "#line " + std::to_string(line) + " " + std::to_string(file) + "\n";
-  }
   bool seen(const std::string& file) const {
     for (const std::string& known : source_.files)
       if (fs::path(known).lexically_normal() == fs::path(file).lexically_normal()) return true;
@@ -81,16 +77,21 @@ class Assembler {
   ShaderSource& source_;
 };
 
-bool parseMessage(const std::string& line, const std::vector<std::string>& files, ShaderMessage& message) {
-  static const std::regex mesa(R"re((\d+):(\d+)\(\d+\): (?:preprocessor )?error: (.*))re");
-  static const std::regex nvidia(R"re((\d+)\((\d+)\) : error (.*))re");
-  static const std::regex angle(R"re(ERROR: (\d+):(\d+): (.*))re");
+/// "file:line" of a line of the text, from 1.
+std::string placeOf(const ShaderSource& source, size_t line) {
+  if (line == 0 || line > source.lines.size()) return source.files.front();
+  const ShaderSource::Place& place = source.lines[line - 1];
+  return source.files[place.file] + (place.line > 0 ? ":" + std::to_string(place.line) : " (its defines)");
+}
+
+bool parseMessage(const std::string& line, const ShaderSource& source, ShaderMessage& message) {
+  static const std::regex mesa(R"re(\d+:(\d{1,9})\(\d+\): (?:preprocessor )?error: (.*))re");
+  static const std::regex nvidia(R"re(\d+\((\d{1,9})\) : error (.*))re");
+  static const std::regex angle(R"re(ERROR: \d+:(\d{1,9}): (.*))re");
   for (const std::regex* pattern : {&mesa, &nvidia, &angle}) {
     std::smatch match;
     if (!std::regex_search(line, match, *pattern)) continue;
-    const size_t file = std::stoul(match[1].str());
-    if (file >= files.size()) continue;
-    message = {files[file] + ":" + match[2].str(), match[3].str()};
+    message = {placeOf(source, std::stoul(match[1].str())), match[2].str()};
     return true;
   }
   return false;
@@ -108,19 +109,20 @@ ShaderSource assembleShader(const fs::path& root, const std::string& file, GlslD
                             const ShaderDefines& defines) {
   ShaderSource source;
   source.text = header(dialect, defines);
+  source.lines.resize(static_cast<size_t>(std::count(source.text.begin(), source.text.end(), '\n')));
   Assembler(root, source).add(file, "shaders");
   return source;
 }
 
-ShaderMessage firstError(const std::string& log, const std::vector<std::string>& files) {
+ShaderMessage firstError(const std::string& log, const ShaderSource& source) {
   ShaderMessage message;
   std::istringstream lines(log);
   std::string fallback;
   for (std::string line; std::getline(lines, line);) {
-    if (parseMessage(line, files, message)) return message;
+    if (parseMessage(line, source, message)) return message;
     if (fallback.empty() && line.find_first_not_of(" \t\r") != std::string::npos) fallback = line;
   }
-  return {files.empty() ? "" : files.front(), fallback.empty() ? "an error without a message" : fallback};
+  return {source.files.front(), fallback.empty() ? "an error without a message" : fallback};
 }
 
 fs::path findShaderDir() {

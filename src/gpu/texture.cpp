@@ -113,6 +113,20 @@ size_t bytesOf(const TextureDesc& desc) {
   return texels * texelBytes(desc.format) * desc.samples;
 }
 
+/// Reads a level in bands of at most 1 GiB: OpenGL counts the bytes of one transfer in an int.
+void readRows(GLuint id, const FormatInfo& info, int level, int width, int height,
+              std::span<std::byte> bytes) {
+  const size_t rowBytes = bytes.size() / static_cast<size_t>(height);
+  const int band =
+      static_cast<int>(std::clamp<size_t>((size_t{1} << 30) / rowBytes, 1, static_cast<size_t>(height)));
+  for (int y = 0; y < height; y += band) {
+    const int rows = std::min(band, height - y);
+    glGetTextureSubImage(id, level, 0, y, 0, width, rows, 1, info.transfer, info.type,
+                         static_cast<GLsizei>(rowBytes * static_cast<size_t>(rows)),
+                         bytes.data() + rowBytes * static_cast<size_t>(y));
+  }
+}
+
 }  // namespace
 
 int channels(Format format) {
@@ -194,17 +208,15 @@ std::vector<float> Texture::download(int level) const {
   const FormatInfo info = infoOf(desc_.format);
   assert(info.type == GL_FLOAT && desc_.samples == 1 && level < desc_.levels);
   std::vector<float> values(static_cast<size_t>(width(level)) * height(level) * info.channels);
-  glGetTextureSubImage(id(), level, 0, 0, 0, width(level), height(level), 1, info.transfer, GL_FLOAT,
-                       static_cast<GLsizei>(std::min<size_t>(values.size() * sizeof(float), 0x7fffffff)),
-                       values.data());
+  readRows(id(), info, level, width(level), height(level), std::as_writable_bytes(std::span(values)));
   return values;
 }
 
 std::vector<uint32_t> Texture::downloadUint(int level) const {
   assert(desc_.format == Format::kR32ui && desc_.samples == 1 && level < desc_.levels);
   std::vector<uint32_t> values(static_cast<size_t>(width(level)) * height(level));
-  glGetTextureImage(id(), level, GL_RED_INTEGER, GL_UNSIGNED_INT,
-                    static_cast<GLsizei>(values.size() * sizeof(uint32_t)), values.data());
+  readRows(id(), infoOf(desc_.format), level, width(level), height(level),
+           std::as_writable_bytes(std::span(values)));
   return values;
 }
 

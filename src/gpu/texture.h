@@ -21,7 +21,7 @@ size_t texelBytes(Format format);
 int fullLevels(int width, int height);
 
 struct TextureDesc {
-  std::string label;
+  std::string label{};
   Format format = Format::kRgba32f;
   int width = 1, height = 1;
   int levels = 1;   ///< 1 to fullLevels(); 0 means the full chain

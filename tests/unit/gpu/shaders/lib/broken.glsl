@@ -1,0 +1,3 @@
+float fine(float x) { return x; }
+
+float broken(float x) { return x + undefinedName; }

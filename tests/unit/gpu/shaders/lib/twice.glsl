@@ -1,0 +1,1 @@
+vec4 twice(vec4 v) { return v + v; }
