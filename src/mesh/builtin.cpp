@@ -21,6 +21,9 @@ const auto& recipes() {
       {{"disc", "a flat round disc facing +z; the one open mesh", 32768, 16641}, builtin::makeDisc},
       {{"knot", "a trefoil tied of a round tube", 30720, 15360}, builtin::makeKnot},
       {{"stone", "a rounded faceted stone", 1114, 559}, builtin::makeStone},
+      {{"candle", "a half-melted candle with a wick and runs of wax", 12136, 6070}, builtin::makeCandle},
+      {{"figurine", "a carved chess knight: a thick neck, thin ears and mane", 31398, 15701},
+       builtin::makeFigurine},
   });
   return all;
 }

@@ -10,5 +10,7 @@ Mesh makeSlab();
 Mesh makeDisc();
 Mesh makeKnot();
 Mesh makeStone();
+Mesh makeCandle();
+Mesh makeFigurine();
 
 }  // namespace lychnite::builtin

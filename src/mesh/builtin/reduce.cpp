@@ -51,9 +51,12 @@ class Reducer {
         quadrics_[s_.triangles[t][k]].add(q);
       }
     }
+    std::vector<Collapse> all;
+    all.reserve(3 * s_.triangles.size());
     for (const glm::uvec3& t : s_.triangles)
       for (int k = 0; k < 3; ++k)
-        if (t[k] < t[(k + 1) % 3]) push(t[k], t[(k + 1) % 3]);
+        if (t[k] < t[(k + 1) % 3]) all.push_back(candidate(t[k], t[(k + 1) % 3]));
+    queue_ = std::priority_queue<Collapse>({}, std::move(all));
   }
 
   void run(size_t target) {
@@ -103,11 +106,11 @@ class Reducer {
     return glm::inverse(q.a + glm::dmat3(hold)) * (hold * middle - q.b);
   }
 
-  void push(unsigned a, unsigned b) {
+  Collapse candidate(unsigned a, unsigned b) const {
     const Quadric q = both(a, b);
     const glm::dvec3 edge = s_.positions[a] - s_.positions[b];
     const double cost = std::max(q.at(bestPlace(a, b)), 0.0) + evenness_ * q.area * glm::dot(edge, edge);
-    queue_.push({cost, a, b, version_[a], version_[b]});
+    return {cost, a, b, version_[a], version_[b]};
   }
 
   std::vector<unsigned> neighbours(unsigned v) const {
@@ -168,7 +171,7 @@ class Reducer {
     quadrics_[keep].add(quadrics_[drop]);
     ++version_[drop];
     ++version_[keep];
-    for (unsigned n : neighbours(keep)) push(std::min(keep, n), std::max(keep, n));
+    for (unsigned n : neighbours(keep)) queue_.push(candidate(std::min(keep, n), std::max(keep, n)));
   }
 
   void compact() {

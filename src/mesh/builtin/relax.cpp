@@ -68,7 +68,7 @@ class Flipper {
     if (edges_.contains(edgeKey(c, d))) return;
     const glm::uvec3 n0(c, d, b), n1(d, c, a);
     const glm::dvec3 old_normal = glm::normalize(areaNormal(s_, t0) + areaNormal(s_, t1));
-    constexpr double kFlat = 0.9;
+    constexpr double kFlat = 0.8;
     for (const glm::uvec3& t : {t0, t1, n0, n1}) {
       const glm::dvec3 n = areaNormal(s_, t);
       if (glm::dot(n, old_normal) < kFlat * glm::length(n)) return;
