@@ -42,13 +42,15 @@ void validate(const SlabSettings& s) {
 
 /// Shares of light that crosses the slab unscattered, all mirrorings between the two faces included.
 struct Unscattered {
-  Rgb reflected{0}, transmitted{0};
+  Rgb specular{0};  ///< mirrored by the top, never inside
+  Rgb returned{0};  ///< mirrored by the bottom, out of the top
+  Rgb transmitted{0};
 };
 
 Unscattered unscatteredAt(const SlabSettings& s, double cosine) {
   const transport::Boundary entry = transport::fresnel(float(cosine), float(s.medium.eta));
   const double R = entry.reflectance;
-  Unscattered result{Rgb(R), Rgb(0)};
+  Unscattered result{Rgb(R), Rgb(0), Rgb(0)};
   if (std::isinf(s.thickness)) {
     const Rgb empty = Rgb(glm::equal(s.medium.sigma_t(), Rgb(0)));
     result.transmitted = (1 - R) * empty;
@@ -57,7 +59,7 @@ Unscattered unscatteredAt(const SlabSettings& s, double cosine) {
   const Rgb once = glm::exp(-s.medium.sigma_t() * s.thickness / double(entry.cosT));
   const Rgb round = 1.0 - R * R * once * once;
   result.transmitted = (1 - R) * (1 - R) * once / round;
-  result.reflected += (1 - R) * (1 - R) * R * once * once / round;
+  result.returned = (1 - R) * (1 - R) * R * once * once / round;
   return result;
 }
 
@@ -67,7 +69,8 @@ Unscattered unscattered(const SlabSettings& s) {
   Unscattered sum;
   for (int i = 0; i < kSteps; ++i) {  // uniform in cosine^2: the cosine-weighted mean
     const Unscattered part = unscatteredAt(s, std::sqrt((i + 0.5) / kSteps));
-    sum.reflected += part.reflected / double(kSteps);
+    sum.specular += part.specular / double(kSteps);
+    sum.returned += part.returned / double(kSteps);
     sum.transmitted += part.transmitted / double(kSteps);
   }
   return sum;
@@ -222,7 +225,8 @@ SlabResult assemble(const SlabSettings& settings, const SlabMeans& means) {
   const Unscattered straight = unscattered(settings);
   SlabResult result;
   result.diffuse_reflectance = means.reflected.share();
-  result.specular_reflectance.value = straight.reflected;
+  result.diffuse_reflectance.value += straight.returned;
+  result.specular_reflectance.value = straight.specular;
   result.total_transmittance = means.transmitted.share();
   result.total_transmittance.value += straight.transmitted;
   result.unscattered_transmittance.value = straight.transmitted;

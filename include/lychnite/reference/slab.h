@@ -31,9 +31,10 @@ struct SlabShare {
 /// Where the power of the incident light goes. diffuse_reflectance + specular_reflectance +
 /// total_transmittance + absorbed = 1 up to the errors.
 struct SlabResult {
-  SlabShare diffuse_reflectance;        ///< out of the top after one or more scatterings
-  SlabShare specular_reflectance;       ///< out of the top unscattered: mirrored by the top, or by the bottom
-  SlabShare total_transmittance;        ///< out of the bottom
+  SlabShare diffuse_reflectance;   ///< out of the top, except what the top mirrors; so with the little
+                                   ///< that the bottom mirrors unscattered, as in MCML (Wang et al. 1995)
+  SlabShare specular_reflectance;  ///< mirrored by the top
+  SlabShare total_transmittance;   ///< out of the bottom
   SlabShare unscattered_transmittance;  ///< the part of it that was never scattered
   SlabShare absorbed;
   /// Exitance around a pencil beam, per unit power, 1/mm^2, mean over each ring, scattered light only.
