@@ -1,0 +1,304 @@
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "commands.h"
+#include "lychnite/app/image_maker.h"
+#include "lychnite/app/report.h"
+#include "lychnite/app/specs.h"
+#include "lychnite/app/sweep.h"
+#include "lychnite/base/atomic_file.h"
+#include "lychnite/base/error.h"
+#include "lychnite/base/text.h"
+#include "lychnite/base/units.h"
+#include "lychnite/image/io.h"
+#include "lychnite/optics/materials.h"
+#include "lychnite/scene/scene_file.h"
+#include "terminal.h"
+
+namespace lychnite::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The flags as typed; empty means "not given".
+struct Flags {
+  std::string model, size, material, sigma_s, sigma_a, rotate, camera, background, ambient, saveScene;
+  std::vector<std::string> lights;
+  std::string g, eta, roughness;
+  std::string method = "adaptive", profile = "dipole", components, aov, resolution = "600x600", samples,
+              singleSamples, map;
+  std::string exposure = "0", toneMap = "srgb", time;
+  std::string noise, tolerance;
+  std::string output, stats, device = "auto";
+  int bits = 8, threads = 0, frames = 1;
+  bool transparent = false, verbose = false, debug = false, turntable = false;
+  uint64_t seed = 1;
+  std::string orbitLight, sizeFrom, sizeTo;
+};
+
+[[noreturn]] void usage(std::string where, std::string expected, std::string found, std::string todo = "") {
+  throw Error({.where = std::move(where),
+               .expected = std::move(expected),
+               .found = std::move(found),
+               .todo = std::move(todo)},
+              Error::Kind::kUsage);
+}
+
+int wholeNumber(const std::string& text, const std::string& where) {
+  const double value = parseNumber(text, where);
+  if (value != std::floor(value) || std::abs(value) > 1e9)
+    usage(where, "a whole number", fmt::format("'{}'", text));
+  return int(value);
+}
+
+/// "2%" or "0.02".
+double share(const std::string& text, const std::string& where) {
+  if (!text.empty() && text.back() == '%') return parseNumber(text.substr(0, text.size() - 1), where) / 100;
+  return parseNumber(text, where);
+}
+
+/// "60s", "2min" or "1h".
+double duration(const std::string& text, const std::string& where) {
+  for (const auto& [suffix, factor] : {std::pair("min", 60.0), std::pair("h", 3600.0), std::pair("s", 1.0)})
+    if (text.size() > std::string_view(suffix).size() && text.ends_with(suffix))
+      return factor * parseNumber(text.substr(0, text.size() - std::string_view(suffix).size()), where);
+  usage(where, "a time with a unit (60s, 2min, 1h)", fmt::format("'{}'", text));
+}
+
+void applyMaterial(Material& material, const Flags& flags) {
+  if (!flags.material.empty()) {
+    material.name = flags.material;
+    material.medium = findMaterial(flags.material, "--material").coefficients;
+  } else if (!flags.sigma_s.empty()) {
+    if (flags.sigma_a.empty())
+      usage("--sigma-s", "--sigma-a as well (or a --material to start from)", "none");
+    material.medium = {};
+  }
+  const Coefficients before = material.medium;
+  if (!flags.sigma_s.empty()) material.medium.sigma_s = parseRgb(flags.sigma_s, "--sigma-s");
+  if (!flags.sigma_a.empty()) material.medium.sigma_a = parseRgb(flags.sigma_a, "--sigma-a");
+  if (!flags.g.empty()) material.medium.g = parseNumber(flags.g, "--g");
+  if (!flags.eta.empty()) material.medium.eta = parseNumber(flags.eta, "--eta");
+  validate(material.medium, "material");
+  if (material.medium != before) material.name = "custom";
+  if (!flags.roughness.empty()) material.roughness = parseNumber(flags.roughness, "--roughness");
+}
+
+bool changesObject(const Flags& flags) {
+  for (const std::string* text : {&flags.size, &flags.material, &flags.sigma_s, &flags.sigma_a, &flags.g,
+                                  &flags.eta, &flags.roughness, &flags.rotate})
+    if (!text->empty()) return true;
+  return false;
+}
+
+double sizeFrom(const std::string& text, const std::string& where) {
+  const double size = parseLength(text, where);
+  if (!(size > 0)) usage(where, "a length above zero", fmt::format("'{}'", text));
+  return size;
+}
+
+void applyToObject(Object& object, const Flags& flags) {
+  if (!flags.size.empty()) object.size = sizeFrom(flags.size, "--size");
+  applyMaterial(object.material, flags);
+  if (!flags.rotate.empty())
+    object.rotation = glm::dquat(parseRgb(flags.rotate, "--rotate") * (3.14159265358979323846 / 180));
+}
+
+Scene baseScene(const Flags& flags, const LogSink& log) {
+  if (flags.model.ends_with(".toml")) {
+    Scene scene = readScene(flags.model, log);
+    if (changesObject(flags) && scene.objects.size() != 1)
+      usage("--size, --material, ...", "a scene of one object",
+            fmt::format("{} in {}", scene.objects.size(), flags.model), "change them in the scene file");
+    return scene;
+  }
+  Scene scene;
+  scene.objects.push_back(loadObject(flags.model, ".", log));
+  scene.objects.front().material.medium = findMaterial("marble", "--material").coefficients;
+  if (flags.size.empty() && flags.sizeFrom.empty())
+    usage("--size", "the object's true size, the longest side of its box (--size 20mm)", "none");
+  scene.lights.push_back(ParallelLight{});
+  return scene;
+}
+
+Scene sceneFromFlags(const Flags& flags, const LogSink& log) {
+  Scene scene = baseScene(flags, log);
+  if (scene.objects.size() == 1) applyToObject(scene.objects.front(), flags);
+  if (!flags.lights.empty()) scene.lights.clear();
+  for (const std::string& light : flags.lights) scene.lights.push_back(parseLight(light, "--light"));
+  if (!flags.camera.empty()) scene.camera = parseCamera(flags.camera, "--camera");
+  if (!flags.background.empty()) scene.background = parseRgb(flags.background, "--background");
+  if (!flags.ambient.empty()) scene.ambient = parseRgb(flags.ambient, "--ambient");
+  validate(scene);
+  return scene;
+}
+
+RenderSettings settingsFromFlags(const Flags& flags) {
+  RenderSettings settings;
+  const Resolution resolution = parseResolution(flags.resolution, "--resolution");
+  settings.width = resolution.width;
+  settings.height = resolution.height;
+  settings.method = parseMethod(flags.method, "--method");
+  settings.profile = parseProfileKind(flags.profile, "--profile");
+  if (!flags.components.empty()) settings.components = parseComponents(flags.components, "--components");
+  if (!flags.aov.empty()) settings.aovs = split(flags.aov, ',');
+  if (!flags.map.empty()) settings.mapSize = wholeNumber(flags.map, "--map");
+  if (!flags.samples.empty()) {
+    if (settings.method == Method::kWalk)
+      settings.samples = parseNumber(flags.samples, "--samples");
+    else
+      settings.singleSamples = wholeNumber(flags.samples, "--samples");
+  }
+  if (!flags.singleSamples.empty())
+    settings.singleSamples = wholeNumber(flags.singleSamples, "--single-samples");
+  if (!flags.tolerance.empty()) settings.tolerance = share(flags.tolerance, "--tolerance");
+  if (!flags.noise.empty()) settings.noise = share(flags.noise, "--noise");
+  if (!flags.time.empty()) settings.timeLimit = duration(flags.time, "--time");
+  settings.seed = flags.seed;
+  settings.threads = flags.threads;
+  validate(settings);
+  return settings;
+}
+
+Sweep sweepFromFlags(const Flags& flags) {
+  Sweep sweep{.frames = flags.frames};
+  if (!flags.orbitLight.empty()) sweep.orbitLightDegrees = parseNumber(flags.orbitLight, "--orbit-light");
+  if (flags.turntable) sweep.turntableDegrees = 360;
+  if (!flags.sizeFrom.empty()) sweep.sizeFrom = sizeFrom(flags.sizeFrom, "--size-from");
+  if (!flags.sizeTo.empty()) sweep.sizeTo = sizeFrom(flags.sizeTo, "--size-to");
+  validate(sweep);
+  return sweep;
+}
+
+bool isExr(const fs::path& path) {
+  return path.extension() == ".exr";
+}
+
+void checkOutput(const fs::path& path) {
+  if (path.extension() != ".png" && path.extension() != ".exr")
+    usage("-o", "a file ending in .png or .exr", fmt::format("'{}'", path.string()));
+  std::error_code code;
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  // Said before the work, not after it.
+  if (!fs::is_directory(folder, code))
+    throw Error({.where = path.string(),
+                 .expected = "",
+                 .found = fmt::format("there is no folder '{}'", folder.string()),
+                 .todo = "make it first"});
+}
+
+void write(Image& image, const fs::path& path, const Flags& flags) {
+  image.metadata["exposure"] = flags.exposure;
+  if (isExr(path)) return writeExr(image, path);
+  writePng(image, path,
+           {.toneMapping = {.curve = parseToneCurve(flags.toneMap, "--tone-map"),
+                            .exposure = parseNumber(flags.exposure, "--exposure")},
+            .bits = flags.bits,
+            .alpha = flags.transparent});
+}
+
+int render(const Flags& flags) {
+  const LogSink log = terminalLog(flags.verbose);
+  const RenderSettings settings = settingsFromFlags(flags);
+  const Sweep sweep = sweepFromFlags(flags);
+  const fs::path output = flags.output;
+  checkOutput(output);
+  parseToneCurve(flags.toneMap, "--tone-map");
+  parseNumber(flags.exposure, "--exposure");
+  const Scene scene = sceneFromFlags(flags, log);
+  if (!flags.saveScene.empty()) writeScene(scene, flags.saveScene);
+  ImageMaker maker({.device = flags.device, .debug = flags.debug, .log = log});
+  const Progress progress = terminalProgress();
+  const auto start = std::chrono::steady_clock::now();
+  for (int i = 0; i < sweep.frames; ++i) {
+    if (sweep.frames > 1)
+      progress.check({.what = "frames",
+                      .fraction = double(i) / sweep.frames,
+                      .detail = fmt::format("{}/{}", i + 1, sweep.frames)});
+    Image image = maker.render(sceneAt(scene, sweep, i), settings, sweep.frames > 1 ? Progress() : progress);
+    finishProgress();
+    write(image, sweep.frames > 1 ? numbered(output, i, sweep.frames) : output, flags);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (!flags.stats.empty())
+      writeTextAtomically(flags.stats, statsJson(image, settings, maker.stats(), seconds));
+    if (image.metadata.contains("interrupted")) {
+      fmt::print(stderr, "lychnite: interrupted; {} holds what there was\n", output.string());
+      return 130;
+    }
+  }
+  return 0;
+}
+
+void addSceneFlags(CLI::App& command, Flags& flags) {
+  command
+      .add_option("MODEL", flags.model,
+                  "mesh file (PLY, OBJ, STL, OFF, 3DS, glTF, GLB), built-in model, or scene.toml")
+      ->required();
+  command.add_option("--size", flags.size,
+                     "true size: longest side of the bounding box, with a unit (20mm, 3cm, 1in)");
+  command.add_option("--material", flags.material, "a name from `lychnite materials` (default marble)");
+  command.add_option("--sigma-s", flags.sigma_s, "scattering coefficient R,G,B in 1/mm");
+  command.add_option("--sigma-a", flags.sigma_a, "absorption coefficient R,G,B in 1/mm");
+  command.add_option("--g", flags.g, "mean cosine of scattering, -1 to 1");
+  command.add_option("--eta", flags.eta, "refractive index, inside over outside");
+  command.add_option("--roughness", flags.roughness, "of the coat, 0.02 to 1 (default 0.3)");
+  command.add_option("--rotate", flags.rotate, "X,Y,Z in degrees");
+  command.add_option("--light", flags.lights, "parallel:AZ,EL[,E] or point:X,Y,Z[,I]; may be repeated")
+      ->allow_extra_args(false);
+  command.add_option("--camera", flags.camera,
+                     "orbit:AZ,EL[,FACTOR[,FOV]] or pinhole:PX,PY,PZ,TX,TY,TZ[,FOV]");
+  command.add_option("--background", flags.background, "R,G,B radiance (default 0)");
+  command.add_option("--ambient", flags.ambient, "R,G,B radiance of a uniform surrounding (default 0)");
+  command.add_option("--save-scene", flags.saveScene, "also write the scene as TOML");
+}
+
+void addMethodFlags(CLI::App& command, Flags& flags) {
+  command.add_option("--method", flags.method, "adaptive (default), fixed, dipole, hierarchical or walk");
+  command.add_option("--profile", flags.profile,
+                     "dipole (default), better-dipole, normalized-diffusion or tabulated");
+  command.add_option("--components", flags.components, "any of multiple,single,surface (default all)");
+  command.add_option("--samples", flags.samples,
+                     "walk: photons per pixel (16); adaptive, fixed: single-scattering samples (8)");
+  command.add_option("--single-samples", flags.singleSamples,
+                     "single-scattering samples along the refracted ray (8)");
+  command.add_option("--map", flags.map, "light-space map size, 128 to 4096 (512)");
+  command.add_option("--tolerance", flags.tolerance, "dipole: relative error to refine to (0.5%)");
+  command.add_option("--time", flags.time, "walk: stop after this time (60s, 2min)");
+  command.add_option("--noise", flags.noise, "walk: stop at this relative noise (2%)");
+  command.add_option("--seed", flags.seed, "of the random numbers (1)");
+  command.add_option("--threads", flags.threads, "CPU threads, 0 = all cores");
+  command.add_option("--device", flags.device, "auto, gpu, cpu or a number from `lychnite devices`");
+  command.add_flag("--debug", flags.debug, "OpenGL debug context; its errors are failures");
+}
+
+void addOutputFlags(CLI::App& command, Flags& flags) {
+  command.add_option("--resolution", flags.resolution, "WxH (600x600)");
+  command.add_option("--exposure", flags.exposure, "stops, for PNG (0)");
+  command.add_option("--tone-map", flags.toneMap, "srgb (default) or filmic, for PNG");
+  command.add_option("--bits", flags.bits, "of a PNG channel, 8 or 16")->check(CLI::IsMember({8, 16}));
+  command.add_flag("--transparent", flags.transparent, "PNG with alpha instead of over the background");
+  command.add_option("--aov", flags.aov,
+                     "EXR layers: multiple,single,surface,depth,normal,lights,radiosity,stderr");
+  command.add_option("--stats", flags.stats, "write timings, device and counts as JSON");
+  command.add_option("-o,--output", flags.output, "FILE.png or FILE.exr")->required();
+  command.add_option("--frames", flags.frames, "write this many numbered pictures");
+  command.add_option("--orbit-light", flags.orbitLight, "degrees the lights turn over all frames");
+  command.add_flag("--turntable", flags.turntable, "turn the objects once over all frames");
+  command.add_option("--size-from", flags.sizeFrom, "size of the first frame");
+  command.add_option("--size-to", flags.sizeTo, "size of the last frame");
+  command.add_flag("--verbose", flags.verbose, "say what loading repaired and more");
+}
+
+}  // namespace
+
+void addRender(CLI::App& app, Action& action) {
+  auto flags = std::make_shared<Flags>();
+  CLI::App* command = app.add_subcommand("render", "Render a model or scene to a picture");
+  addSceneFlags(*command, *flags);
+  addMethodFlags(*command, *flags);
+  addOutputFlags(*command, *flags);
+  command->callback([flags, &action] { action = [flags] { return render(*flags); }; });
+}
+
+}  // namespace lychnite::cli

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <memory>
+
+#include "lychnite/base/progress.h"
+#include "lychnite/image/image.h"
+#include "lychnite/scene/scene.h"
+#include "lychnite/scene/settings.h"
+#include "lychnite/technique/renderer.h"
+
+namespace lychnite {
+
+/// Any method, one call: the real-time methods through one Renderer that is made when first needed and kept,
+/// the judges through renderReference(). Pictures carry what made them (scene, settings, version) as
+/// metadata.
+class ImageMaker {
+ public:
+  explicit ImageMaker(RendererOptions options) : options_(std::move(options)) {}
+
+  /// Throws what Renderer::render and renderReference throw.
+  Image render(const Scene& scene, const RenderSettings& settings, const Progress& progress = {});
+  /// Of the last real-time picture; nothing after a judge's.
+  const RenderStats* stats() const { return lastWasRealTime_ ? &renderer_->stats() : nullptr; }
+
+ private:
+  RendererOptions options_;
+  std::unique_ptr<Renderer> renderer_;
+  bool lastWasRealTime_ = false;
+};
+
+/// The program's version, "0.1.0".
+const char* versionText();
+
+}  // namespace lychnite
