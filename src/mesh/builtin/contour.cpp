@@ -130,18 +130,19 @@ class Contourer {
         clear = clear && !(kEdges[polygon[pivot]].faces & kEdges[polygon[(pivot + k) % n]].faces);
       if (!clear) continue;
       for (size_t k = 1; k + 1 < n; ++k)
-        addTriangle(vertex(at, polygon[pivot]), vertex(at, polygon[(pivot + k) % n]),
-                    vertex(at, polygon[(pivot + k + 1) % n]));
+        addTriangle({vertex(at, polygon[pivot]), vertex(at, polygon[(pivot + k) % n]),
+                     vertex(at, polygon[(pivot + k + 1) % n])});
       return;
     }
     glm::dvec3 middle(0);
     for (int e : polygon) middle += surface_.positions[vertex(at, e)] / double(n);
     const auto m = static_cast<unsigned>(surface_.positions.size());
     surface_.positions.push_back(middle);
-    for (size_t k = 0; k < n; ++k) addTriangle(m, vertex(at, polygon[k]), vertex(at, polygon[(k + 1) % n]));
+    for (size_t k = 0; k < n; ++k) addTriangle({m, vertex(at, polygon[k]), vertex(at, polygon[(k + 1) % n])});
   }
 
-  void addTriangle(unsigned a, unsigned b, unsigned c) { surface_.triangles.emplace_back(a, b, c); }
+  /// Takes braces, which make the vertices in one order with every compiler.
+  void addTriangle(const glm::uvec3& t) { surface_.triangles.push_back(t); }
 
   unsigned vertex(const glm::ivec3& at, int edge) {
     const glm::ivec3 low = at + corner(kEdges[edge].low);

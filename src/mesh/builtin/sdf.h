@@ -46,10 +46,6 @@ double segmentDistance(const Vec& p, const Vec& a, const Vec& b) {
   return glm::length(pa - ba * glm::clamp(glm::dot(pa, ba) / glm::dot(ba, ba), 0.0, 1.0));
 }
 
-inline double capsule(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, double radius) {
-  return segmentDistance(p, a, b) - radius;
-}
-
 /// A capsule whose radius goes linearly from ra at a to rb at b; a bound, exact when the radii are equal.
 double taperedCapsule(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, double ra, double rb);
 
