@@ -61,8 +61,10 @@ uint64_t Words::count() {
 void Words::fail(const std::string& expected, std::string_view found) const {
   throw Error({.where = where(),
                .expected = expected,
-               .found = found.empty() ? "the end of the line" : shown(found),
-               .todo = "export the model again"});
+               .found = !found.empty() ? shown(found)
+                        : cut_         ? "the end of the file: it is truncated"
+                                       : "the end of the line",
+               .todo = "download or export the model again"});
 }
 
 Words TextLines::line() {
@@ -70,14 +72,14 @@ Words TextLines::line() {
   const std::string_view text = text_.substr(at_, end - at_);
   at_ = end;
   if (at_ < text_.size()) at_ += text_.substr(at_, 2) == "\r\n" ? 2 : 1;
-  return {text, *where_, ++number_};
+  return {text, *where_, ++number_, lastLineCut()};
 }
 
 Words TextLines::fullLine(char comment, const char* what) {
   while (!atEnd()) {
     const Words found = line();
     const std::string_view text = found.rest().substr(0, found.rest().find(comment));
-    if (text.find_first_not_of(kBlanks) != text.npos) return {text, *where_, number_};
+    if (text.find_first_not_of(kBlanks) != text.npos) return {text, *where_, number_, lastLineCut()};
   }
   throw Error({.where = *where_,
                .expected = what,

@@ -9,8 +9,9 @@ namespace lychnite {
 /// The words of one line, in order, with errors that name "path:line".
 class Words {
  public:
-  Words(std::string_view line, const std::string& where, size_t number)
-      : rest_(line), where_(&where), number_(number) {}
+  /// `cut`: the text ended before the line did, so that missing words mean a truncated file.
+  Words(std::string_view line, const std::string& where, size_t number, bool cut = false)
+      : rest_(line), where_(&where), number_(number), cut_(cut) {}
 
   /// The next word, or "" at the line's end.
   std::string_view next();
@@ -29,6 +30,7 @@ class Words {
   std::string_view rest_;
   const std::string* where_;
   size_t number_;
+  bool cut_;
 };
 
 /// Walks over the lines of a text; "\n", "\r\n" and "\r" end one.
@@ -47,6 +49,8 @@ class TextLines {
   Words fullLine(char comment, const char* what);
 
  private:
+  bool lastLineCut() const { return at_ == text_.size() && !text_.ends_with('\n') && !text_.ends_with('\r'); }
+
   std::string_view text_;
   const std::string* where_;
   size_t at_ = 0, number_ = 0;

@@ -205,6 +205,8 @@ class Folder {
 
   std::filesystem::path path() const { return path_; }
   std::filesystem::path write(const std::string& name, std::string_view bytes) const {
+    // A new file each time: overwriting one makes some file systems write it to the disk at once.
+    std::filesystem::remove(path_ / name);
     std::ofstream(path_ / name, std::ios::binary)
         .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     return path_ / name;
