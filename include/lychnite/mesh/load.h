@@ -10,12 +10,14 @@
 
 namespace lychnite {
 
-/// What loading changed. file_vertices = the mesh's + duplicate + unused, file_triangles = the mesh's + degenerate.
+/// What loading changed. file_vertices = the mesh's + duplicate + unused, file_triangles = the mesh's +
+/// degenerate.
 struct RepairReport {
-  /// As the file's faces use them: polygons are cut into triangles, each STL corner is a vertex, and so is each pair
-  /// of position and normal of an OBJ.
+  /// As the file's faces use them: polygons are cut into triangles, each STL corner is a vertex, and so is
+  /// each pair of position and normal of an OBJ.
   size_t file_vertices = 0, file_triangles = 0;
-  /// Welded: the same position and, where the file has normals, the same normal (so creases stay). -0 equals 0.
+  /// Welded: the same position and, where the file has normals, the same normal (so creases stay). -0 equals
+  /// 0.
   size_t duplicate_vertices = 0;
   size_t degenerate_triangles = 0;  ///< dropped: two equal corners or no area
   size_t unused_vertices = 0;       ///< dropped
@@ -29,13 +31,13 @@ struct LoadedMesh {
   double seconds = 0;
 };
 
-/// Loads and repairs PLY, OBJ, STL, OFF, 3DS, glTF or GLB (by extension, case ignored); all meshes of a file with
-/// their node transforms become one. Throws Error for a missing, unreadable, empty, truncated or malformed file,
-/// NaN or infinite coordinates, indices past the vertices, no triangle left, an extent of zero, or a required glTF
-/// extension that changes the geometry (mesh compression). Never allocates more than a small multiple of the file's
-/// size; only copies of a glTF's meshes under many nodes may add up to 16 million triangles. The file's normals are
-/// kept when every vertex in use has one, and turned together where they mostly oppose the triangles. Skins and
-/// morph targets stay at rest. Safe to call from several threads.
+/// Loads and repairs PLY, OBJ, STL, OFF, 3DS, glTF or GLB (by extension, case ignored); all meshes of a file
+/// with their node transforms become one. Throws Error for a missing, unreadable, empty, truncated or
+/// malformed file, NaN or infinite coordinates, indices past the vertices, no triangle left, an extent of
+/// zero, or a required glTF extension that changes the geometry (mesh compression). Never allocates more than
+/// a small multiple of the file's size; only copies of a glTF's meshes under many nodes may add up to 16
+/// million triangles. The file's normals are kept when every vertex in use has one, and turned together where
+/// they mostly oppose the triangles. Skins and morph targets stay at rest. Safe to call from several threads.
 LoadedMesh loadMesh(const std::filesystem::path& path, const LogSink& log = {});
 
 /// Welds, drops and makes normals as loadMesh does, on triangles from anywhere. `where` names them in errors.

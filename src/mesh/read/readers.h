@@ -8,12 +8,12 @@
 
 namespace lychnite {
 
-/// Why these are readers of our own. assimp 5.2.5 was tried: it hands on indices past the vertices (PLY, OFF), takes
-/// a cut-off PLY for a smaller model, aborts the program on a cut-off OFF, and allocates for what a header claims
-/// before it looks at the file's size. tinygltf 2.7.0 forgets a chunk's header when it checks a GLB's length, so
-/// that it reads past the end, and copies the BIN chunk once for every buffer that the file declares. Here every
-/// count is checked against the bytes that are left before anything is allocated for it, and errors name the line,
-/// face or element that is wrong.
+/// Why these are readers of our own. assimp 5.2.5 was tried: it hands on indices past the vertices (PLY,
+/// OFF), accepts a cut-off PLY, aborts the program on a cut-off OFF, and allocates for what a header claims
+/// before it looks at the file's size. tinygltf 2.7.0, by its source, forgets a chunk's header when it checks
+/// a GLB's length, so that it reads past the end, and copies the BIN chunk once for every buffer that the
+/// file declares. Here every count is checked against the bytes that are left before anything is allocated
+/// for it, and errors name the line, face or element that is wrong.
 ///
 /// All of them: `bytes` is the whole file, `where` names it in errors; the mesh is as the file has it
 /// (corners are below the vertex count, nothing else is checked), normals are empty or as many as positions.

@@ -46,8 +46,8 @@ TEST(Normals, OfABoxAreDiagonal) {
   }
 }
 
-// An octahedron cut twelve times along each edge and blown up: irregular triangles, known normals. The bound is
-// what was measured (0.0073) with some room; unweighted normals miss it (0.0097).
+// An octahedron cut twelve times along each edge and blown up: irregular triangles, known normals. The bound
+// is what was measured (0.0073) with some room; unweighted normals miss it (0.0097).
 TEST(Normals, OfASphereAreRadial) {
   constexpr int kCuts = 12;
   std::vector<glm::vec3> positions;
