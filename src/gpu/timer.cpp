@@ -2,6 +2,7 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <cassert>
 
 #include "gpu/context_state.h"
@@ -32,12 +33,20 @@ GpuTimer::Query::Query(const std::string& label) : Object(createQuery(), GL_QUER
 GpuTimer::GpuTimer(const std::string& label)
     : ring_{Query(label), Query(label), Query(label), Query(label)} {}
 
+double GpuTimer::read(const Query& query) const {
+  // llvmpipe's first query after a context is made reports the time since the machine was booted; no device can have
+  // been busy for longer than has passed.
+  const std::chrono::duration<double, std::milli> passed = Clock::now() - query.begun;
+  return std::min(readMs(query.id()), passed.count());
+}
+
 void GpuTimer::begin() {
   Query& query = ring_[next_];
   assert(!query.state().timerRunning && "one timer at a time");
-  if (query.ended) newestMs_ = readMs(query.id());
+  if (query.ended) newestMs_ = read(query);
   query.ended = false;
   query.state().timerRunning = true;
+  query.begun = Clock::now();
   glBeginQuery(GL_TIME_ELAPSED, query.id());
 }
 
@@ -57,7 +66,7 @@ void GpuTimer::collect(bool wait) {
     GLuint done = GL_TRUE;
     if (!wait) glGetQueryObjectuiv(query.id(), GL_QUERY_RESULT_AVAILABLE, &done);
     if (!done) return;
-    newestMs_ = readMs(query.id());
+    newestMs_ = read(query);
     query.ended = false;
   }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <optional>
 #include <string>
 
@@ -39,9 +40,13 @@ class GpuTimer {
     explicit Query(const std::string& label);
     using Object::id;
     using Object::state;
+    std::chrono::steady_clock::time_point begun;
     bool ended = false;  // holds a measurement that was not read yet
   };
+  using Clock = std::chrono::steady_clock;
   static constexpr int kRing = 4;
+
+  double read(const Query& query) const;
 
   /// Reads every measurement that is done, oldest first; waits for the newest when `wait`.
   void collect(bool wait);
