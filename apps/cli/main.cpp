@@ -32,11 +32,9 @@ std::string suggestion(const CLI::App& app, int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string word = split(argv[i], '=').front();
     if (chosen == &app) {
-      const CLI::App* sub = app.get_subcommand_no_throw(word);
-      if (sub) {
-        chosen = sub;
-        continue;
-      }
+      for (const CLI::App* sub : app.get_subcommands({}))
+        if (sub->get_name() == word) chosen = sub;
+      if (chosen != &app) continue;
     }
     if (word.rfind("--", 0) != 0) {
       if (chosen == &app && i == 1) return nearestName(word, known);
