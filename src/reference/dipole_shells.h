@@ -1,0 +1,75 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "lychnite/optics/profile.h"
+#include "reference/octree.h"
+#include "reference/ray_scene.h"
+#include "reference/surface_samples.h"
+
+namespace lychnite {
+
+/// How one object's kernel is cut: shell i holds what lies between radius[i - 1] (all of space for the first)
+/// and radius[i], summed over one point in block[i] samples. Scene units.
+struct ShellPlan {
+  size_t samples = 0;          ///< surface samples
+  std::vector<double> radius;  ///< inner radius of each shell, the widest first
+  std::vector<size_t> block;
+  bool near = false;  ///< probes take what is inside the last radius; else it is 0
+
+  /// Samples until their spacing is a sixth of the profile's shortest core, at most `most`. The last radius
+  /// is six spacings, each one before it twice the next; points lie at most a twelfth of their shell's inner
+  /// radius apart (a sixth in the last), and the first shell has about `first` of them.
+  ShellPlan(const SurfaceSampler& sampler, const Profile& profile, size_t first, size_t most);
+};
+
+/// Called now and then with the fraction done, from the thread that waits; may throw to stop.
+using Tick = std::function<void(double)>;
+
+/// Calls work(group) for all groups in parallel, in a few slices with a tick after each.
+void forGroups(const PointGroups& groups, const Tick& tick,
+               const std::function<void(const PointGroups::Group&)>& work);
+
+/// Samples of an object with the flux that enters through them, dark ones left out, in the order of the
+/// curve.
+FluxPoints litSamples(const RayScene& scene, int object, const SurfaceSampler& sampler, size_t n,
+                      uint64_t seed, int light);
+
+/// One of every `block` sources along the curve, drawn by its flux, carrying what keeps the sum of any kernel
+/// unbiased: the block's flux, if its sources share their colour.
+FluxPoints thinned(const FluxPoints& sources, size_t block, uint64_t seed);
+
+/// One translucent object of a scene, the points of it where the radiosity is asked for, and the sums over
+/// it.
+class DipoleShells {
+ public:
+  DipoleShells(const RayScene& scene, int object, const Profile& profile, std::vector<RayHit> receivers,
+               int light);
+
+  const SurfaceSampler& sampler() const { return sampler_; }
+  const std::vector<RayHit>& receivers() const { return receivers_; }
+
+  /// Radiosity at every receiver. Every shell gets `refine` times its plan's points, each probe count is
+  /// `probes[i] * refine`; sums of different seeds are independent.
+  std::vector<Rgb> sum(const ShellPlan& plan, int refine, const std::vector<int>& probes, uint64_t seed,
+                       const Tick& tick) const;
+
+  /// Probes for each receiver, so that the noise of what they see is about `noise` times `scale`.
+  std::vector<int> planProbes(const ShellPlan& plan, double noise, uint64_t seed) const;
+
+ private:
+  void addFirst(const KernelTable& kernel, const FluxPoints& sources, std::vector<Rgb>& sums,
+                const Tick& tick) const;
+  void addShell(const KernelTable& kernel, const FluxOctree& tree, double radius, std::vector<Rgb>& sums,
+                const Tick& tick) const;
+
+  const RayScene& scene_;
+  int object_, light_;
+  const Profile& profile_;
+  SurfaceSampler sampler_;
+  std::vector<RayHit> receivers_;
+  PointGroups groups_;
+};
+
+}  // namespace lychnite

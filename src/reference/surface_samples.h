@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "reference/ray_scene.h"
+
+namespace lychnite {
+
+/// A point of an object's surface. Scene units.
+struct SurfacePoint {
+  glm::vec3 position{0};
+  glm::vec3 normal{0, 0, 1};  ///< unit, of the triangle, outwards
+};
+
+/// Area-uniform, evenly spread points on an object's true surface.
+///
+/// The surface is laid along one curve that keeps area and nearness: triangles in Hilbert order of their
+/// centroids (Skilling 2004), each filled by a Sierpinski curve. Cutting the curve into n equal lengths gives
+/// n compact patches of equal area; one random point in each is an unbiased sample whose error falls faster
+/// than that of free points.
+class SurfaceSampler {
+ public:
+  explicit SurfaceSampler(const RayMesh& mesh);
+
+  double area() const { return cumulative_.back(); }  ///< unit^2
+  /// Side of a square as large as one of n patches.
+  double spacing(size_t n) const;
+  /// n points, each standing for area() / n; the same for the same seed whatever the thread count.
+  std::vector<SurfacePoint> sample(size_t n, uint64_t seed) const;
+
+ private:
+  SurfacePoint at(double areaBefore) const;
+
+  const RayMesh& mesh_;
+  std::vector<uint32_t> order_;     ///< triangles along the curve
+  std::vector<double> cumulative_;  ///< area up to and with order_[i]
+};
+
+/// A uniform number in [0, 1) for each pair: SplitMix64 (Steele et al. 2014) of the index in the seed's
+/// stream.
+double uniformAt(uint64_t seed, uint64_t index);
+
+/// What enters per area at a point of the surface: the sum over the lights of Ft E cos, 0 where shadowed.
+/// `light` picks one of the scene's lights, -1 takes all.
+Rgb enteringIrradiance(const RayScene& scene, double eta, const SurfacePoint& point, int light);
+
+}  // namespace lychnite
