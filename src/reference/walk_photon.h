@@ -1,0 +1,93 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <memory>
+#include <vector>
+
+#include "lychnite/base/vec.h"
+#include "reference/ray_scene.h"
+#include "reference/transport.h"
+#include "reference/walk_distance.h"
+#include "reference/walk_emission.h"
+#include "reference/walk_fan.h"
+#include "reference/walk_film.h"
+#include "reference/walk_guide.h"
+
+namespace lychnite {
+
+/// What all photons of a walk share; immutable while they fly.
+struct WalkWorld {
+  const RayScene* rays = nullptr;
+  const WalkEmission* emission = nullptr;
+  const WalkLens* lens = nullptr;
+  std::vector<transport::Medium> media;                 ///< per object, scene units
+  std::vector<float> lobeScale;                         ///< per object, 1 / (pi C(eta)) of S_w
+  std::vector<std::unique_ptr<WalkDistance>> distance;  ///< per object; none for opaque ones
+  std::vector<char> closed;                             ///< per object
+  bool radiosity = false;                               ///< the film has layer 1
+};
+
+/// Where the power of some photons went: sums of flux.
+struct WalkTally {
+  double photons = 0;
+  Rgb arrived{0};   ///< at translucent surfaces, straight from the lights
+  Rgb escaped{0};   ///< away from all objects
+  Rgb absorbed{0};  ///< in the media (expected values)
+  Rgb blocked{0};   ///< on opaque objects
+  Rgb lost{0};      ///< through holes of meshes that are not closed, and numerical leaks
+  double rays = 0, collisions = 0, fans = 0;  ///< work done
+
+  WalkTally& operator+=(const WalkTally& other);
+};
+
+/// Flies photons one after the other. Exits of light from its last collision are splatted in expectation, by
+/// fans of rays from collisions (as many as WalkGuide says); those after an internal reflection where they
+/// happen.
+class WalkPhotons {
+ public:
+  WalkPhotons(const WalkWorld& world, const WalkGuide& guide, WalkFilm* film, WalkGuideSamples* learn,
+              transport::Rng rng)
+      : world_(world), guide_(guide), film_(film), learn_(learn), rng_(rng) {}
+
+  /// One photon for the start at `u` in [0, 1), drawn by `channel`.
+  void fly(double u, int channel);
+  const WalkTally& tally() const { return tally_; }
+
+ private:
+  void stepOutside();
+  void stepInside();
+  void arrive(const RayHit& hit);
+  void collide(float distance);
+  void meet(const RayHit& hit);
+  void leave(const RayHit& hit, float cosI);
+  void openFan();
+  float splatFan(float chance);
+  float splat(const RayHit& hit, const WalkLens::Seen& seen, const glm::vec3& flux);
+  void splatIfSeen(const RayHit& hit, const glm::vec3& flux);
+  void lose() {
+    tally_.lost += Rgb(weight_.flux());
+    alive_ = false;
+  }
+  const transport::Medium& medium() const { return world_.media[size_t(object_)]; }
+  int firstOrder() const { return world_.radiosity ? 1 : 2; }
+
+  const WalkWorld& world_;
+  const WalkGuide& guide_;
+  WalkFilm* film_;
+  WalkGuideSamples* learn_;
+  transport::Rng rng_;
+  WalkTally tally_;
+  RayFan fan_;
+
+  transport::PathWeight weight_;
+  glm::vec3 position_{0}, direction_{0};
+  int object_ = -1;        ///< whose medium the photon is in; -1 outside
+  int shells_ = 1;         ///< how many nested shells of that object it is in
+  int order_ = 0;          ///< collisions so far
+  int ahead_ = -1;         ///< entry of fan_ that the photon flies along; -1 none
+  bool straight_ = false;  ///< nothing met since the last collision: the fan accounts for the exit
+  bool alive_ = false;
+  float rouletteBelow_ = 0;
+};
+
+}  // namespace lychnite
