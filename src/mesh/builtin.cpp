@@ -49,7 +49,9 @@ std::shared_ptr<const Mesh> builtinMesh(std::string_view name) {
     const Recipe& recipe = recipes()[i];
     if (recipe.model.name != name) continue;
     std::call_once(slots[i].once, [&] {
-      slots[i].mesh = std::make_shared<const Mesh>(recipe.make());
+      Mesh mesh = recipe.make();
+      mesh.extent = extentOf(mesh);
+      slots[i].mesh = std::make_shared<const Mesh>(std::move(mesh));
       assert(slots[i].mesh->triangles.size() == recipe.model.triangles);
       assert(slots[i].mesh->positions.size() == recipe.model.vertices);
     });

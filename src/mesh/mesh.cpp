@@ -33,6 +33,16 @@ Bounds boundsOf(const Mesh& mesh) {
   return bounds;
 }
 
+Extent extentOf(const Mesh& mesh) {
+  if (mesh.extent) return *mesh.extent;
+  Extent extent{boundsOf(mesh), 0};
+  const glm::dvec3 centre = extent.bounds.centre();
+  double r2 = 0;
+  for (const glm::dvec3 p : mesh.positions) r2 = std::max(r2, glm::dot(p - centre, p - centre));
+  extent.radius = std::sqrt(r2);
+  return extent;
+}
+
 std::vector<glm::vec3> angleWeightedNormals(const std::vector<glm::vec3>& positions,
                                             const std::vector<glm::uvec3>& triangles) {
   std::vector<glm::dvec3> sums(positions.size(), glm::dvec3(0));

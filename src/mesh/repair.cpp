@@ -164,7 +164,9 @@ RepairReport repairInPlace(Mesh& mesh, const std::string& where) {
 LoadedMesh repairMesh(Mesh mesh, const std::string& where) {
   const auto start = std::chrono::steady_clock::now();
   LoadedMesh loaded;
+  mesh.extent.reset();
   loaded.report = repairInPlace(mesh, where);
+  mesh.extent = extentOf(mesh);
   loaded.mesh = std::make_shared<const Mesh>(std::move(mesh));
   loaded.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return loaded;

@@ -47,7 +47,7 @@ glm::dvec3 directionFromAngles(double azimuth, double elevation) {
 }
 
 Placement placementOf(const Object& object) {
-  const Bounds bounds = boundsOf(*object.mesh);
+  const Bounds bounds = extentOf(*object.mesh).bounds;
   return {.centre = bounds.centre(),
           .scale = object.size / bounds.longestSide(),
           .rotation = object.rotation,
@@ -55,13 +55,7 @@ Placement placementOf(const Object& object) {
 }
 
 Sphere boundingSphere(const Object& object) {
-  const Placement placement = placementOf(object);
-  double r2 = 0;
-  for (const glm::vec3& p : object.mesh->positions) {
-    const glm::dvec3 d = glm::dvec3(p) - placement.centre;
-    r2 = std::max(r2, glm::dot(d, d));
-  }
-  return {object.position, std::sqrt(r2) * placement.scale};
+  return {object.position, extentOf(*object.mesh).radius * placementOf(object).scale};
 }
 
 Sphere boundingSphere(const Scene& scene, bool translucentOnly) {
