@@ -70,14 +70,45 @@ vec3 inScattered(LightView view, vec3 p, vec3 travel) {
   return irradiance * beam * exp(-sigma_t * s) * henyeyGreenstein(dot(lightDirection, -travel), g);
 }
 
+// Whether p lies between the surfaces nearest to and farthest from the light.
+bool inside(LightView view, vec3 p) {
+  vec3 m = projectToMap(view, p);
+  vec2 size = vec2(textureSize(map, 0));
+  if (m.x < 0.0 || m.y < 0.0 || m.x >= 1.0 || m.y >= 1.0) return false;
+  ivec2 at = ivec2(m.xy * size);
+  float texel = 2.0 * view.halfWidth * mix(1.0, m.z, view.perspective) / size.x;
+  return m.z <= texelFetch(farDepth, at, 0).x && m.z >= texelFetch(map, at, 0).x - texel;
+}
+
+// Where the ray leaves the object, found by steps through its bounding sphere and bisection. Without it a few samples on a
+// long ray through a small object would show as contours where one after the other falls outside.
+float leaveObject(LightView view, vec3 o, vec3 d, float end) {
+  float last = 0.0;
+  for (int i = 1; i <= 12; ++i) {
+    float t = end * float(i) / 12.0;
+    if (!inside(view, o + d * t)) {
+      float outside = t;
+      for (int j = 0; j < 6; ++j) {
+        float middle = 0.5 * (last + outside);
+        if (inside(view, o + d * middle)) last = middle; else outside = middle;
+      }
+      return outside;
+    }
+    last = t;
+  }
+  return end;
+}
+
 vec3 singleScattering(LightView view, Receiver r) {
   float cosO = clamp(dot(r.normal, r.view), 0.0, 1.0);
   vec3 travel = refractInto(-r.view, r.normal, eta);
   float end = leaveSphere(r.position, travel, boundCentre, boundRadius);
   if (end <= 0.0) return vec3(0.0);
+  // Beyond ten mean free paths nothing comes back.
+  float slowest = min(sigma_t.x, min(sigma_t.y, sigma_t.z));
+  end = leaveObject(view, r.position, travel, min(end, 10.0 / max(slowest, 1e-6)));
   // Placed for the channel that reaches farthest, so that no channel's weight can exceed 1; the others are weighted by
   // their own attenuation over the density, which is exact for each.
-  float slowest = min(sigma_t.x, min(sigma_t.y, sigma_t.z));
   vec3 sum = vec3(0.0);
   for (int k = 0; k < sampleCount; ++k) {
     float u = (float(k) + 0.5) / float(sampleCount);
