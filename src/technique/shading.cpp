@@ -37,7 +37,9 @@ MultipleLatticeShading::MultipleLatticeShading()
 
 bool MultipleLatticeShading::update(Layer& layer, const ShadingInputs& in, size_t light) {
   const bool fixed = in.settings.method == Method::kFixed;
-  const Key key = Key().add(commonKey(in, light)).add(fixed);
+  const LatticeConstants& constants = in.settings.lattice;
+  Key key = Key().add(commonKey(in, light)).add(fixed).add(constants.C1).add(constants.C2).add(constants.K);
+  for (const FrameObject& object : in.frame.objects) key.add(object.source->size);
   return layer.update("multiple", key, in.frame, in.geometry, [&](size_t i) -> gpu::Program* {
     const FrameObject& object = in.frame.objects[i];
     if (!object.translucent) return nullptr;
@@ -54,7 +56,7 @@ bool MultipleLatticeShading::update(Layer& layer, const ShadingInputs& in, size_
     const Coefficients& medium = object.source->material.medium;
     const double size = fixed ? latticeReferenceSize(medium) : object.source->size;
     const int levels = (fixed ? *map.normal : *map.cosine).levels();
-    const auto cells = makeLattice(latticeSlope({}, medium, size), levels - 1);
+    const auto cells = makeLattice(latticeSlope(constants, medium, size), levels - 1);
     program.set("lattice", std::span<const glm::vec4>(cells));
     return &program;
   });

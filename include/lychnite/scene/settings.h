@@ -23,12 +23,20 @@ struct Components {
 Components parseComponents(std::string_view list, std::string_view where);
 std::string componentsName(const Components& components);
 
+/// The constants of the paper's lattice (Yao & Wang 2009 eq. 4), which it leaves to experiment. They act only through
+/// C1 K and C2 K, so K stays 1. The defaults are tools/fit_lattice's, see docs/sampling.md for its sizes, materials and
+/// remaining error.
+struct LatticeConstants {
+  double C1 = 1.75, C2 = 0.375, K = 1;
+};
+
 /// How a Scene is rendered, the same structure for every method; each reads what concerns it.
 struct RenderSettings {
   int width = 600, height = 600;  ///< 1..16384
   Method method = Method::kAdaptive;
   ProfileKind profile = ProfileKind::kDipole;
   Components components;
+  LatticeConstants lattice;  ///< adaptive, fixed
   int singleSamples = 8;     ///< along the refracted ray (real-time methods), 1..256
   int mapSize = 512;         ///< light-space map, 128..4096
   double samples = 16;       ///< walk: photons per pixel

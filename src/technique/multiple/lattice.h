@@ -4,16 +4,9 @@
 #include <glm/vec4.hpp>
 
 #include "lychnite/optics/coefficients.h"
+#include "lychnite/scene/settings.h"
 
 namespace lychnite {
-
-/// The paper's constants. Its eq. 4 uses C1, C2 and K only through C1 K and C2 K, so K is fixed at 1. Found
-/// by tools/fit_lattice (docs/physics.md gives the fit's sizes, materials and remaining error).
-struct LatticeConstants {
-  double C1 = 1.75;
-  double C2 = 0.375;
-  double K = 1;
-};
 
 /// L0 of eq. 4 in mm: the size at which log2 k is 0. The paper leaves it open; a fixed length would break the
 /// invariance of light transport under scaling size and mean free path together, so it is 23 reduced mean
