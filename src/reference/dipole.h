@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -17,6 +18,13 @@ struct DiffusionSum {
   double error = 0;                  ///< estimated relative RMSE of the sum, 0 where none is estimated
   size_t samples = 0;                ///< surface samples, of all objects
 };
+
+/// The receivers that lie on one object.
+struct ObjectReceivers {
+  std::vector<uint32_t> index;  ///< into CameraReceivers::receivers
+  std::vector<RayHit> hits;
+};
+ObjectReceivers receiversOf(const CameraReceivers& receivers, int object);
 
 /// The dipole integral (of any profile) for the judge's use: unbiased, and refined until the estimated
 /// relative RMSE over the receivers is below settings.tolerance. `light` picks one of the scene's lights, -1

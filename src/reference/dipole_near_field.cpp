@@ -1,5 +1,7 @@
 #include "reference/dipole_near_field.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +15,9 @@ namespace lychnite {
 namespace {
 
 constexpr int kRings = 320;
+constexpr int kPilotProbes = 16;
+constexpr int kMostProbes = 1024;
+constexpr size_t kNeighbours = 4;
 
 double shortestCore(const Profile& profile, double otherwise) {
   double shortest = otherwise;
@@ -21,11 +26,23 @@ double shortestCore(const Profile& profile, double otherwise) {
   return shortest;
 }
 
+/// A seed of its own for each receiver.
+uint64_t streamOf(uint64_t seed, size_t receiver) {
+  return seed * 0x100000000ull + receiver;
+}
+
 double fraction(double x) {
   return x - std::floor(x);
 }
 
 }  // namespace
+
+std::vector<glm::vec3> positionsOf(const std::vector<RayHit>& hits) {
+  std::vector<glm::vec3> positions;
+  positions.reserve(hits.size());
+  for (const RayHit& hit : hits) positions.push_back(hit.position);
+  return positions;
+}
 
 NearKernel::NearKernel(const Profile& profile, double radius) : radius_(radius) {
   first_ = 1e-3 * shortestCore(profile, radius);
@@ -162,6 +179,40 @@ NearEstimate NearField::estimate(const RayHit& at, int probes, uint64_t seed) co
     }
   }
   return sum.finish(kernel_.mass() * here);
+}
+
+std::vector<int> NearField::planProbes(const std::vector<RayHit>& receivers, const PointGroups& groups,
+                                       double noise, uint64_t seed) const {
+  std::vector<NearEstimate> pilot(receivers.size());
+  tbb::parallel_for(size_t(0), pilot.size(),
+                    [&](size_t i) { pilot[i] = estimate(receivers[i], kPilotProbes, streamOf(seed, i)); });
+  double mean = 0;
+  for (const NearEstimate& p : pilot)
+    mean += (p.radiosity.x + p.radiosity.y + p.radiosity.z) / (3.0 * double(pilot.size()));
+  std::vector<int> probes(receivers.size(), kPilotProbes);
+  if (mean <= 0) return probes;
+  for (size_t place = 0; place < probes.size(); ++place) {
+    // A pilot may miss a narrow light; its neighbours along the curve will not all.
+    double spread = 0;
+    const size_t end = std::min(probes.size(), place + kNeighbours + 1);
+    for (size_t i = place - std::min(place, kNeighbours); i < end; ++i)
+      spread = std::max(spread, pilot[groups.order[i]].spread);
+    // The lattice's error falls about as n^-3/4.
+    const double wanted = kPilotProbes + std::pow(spread / (noise * mean), 4.0 / 3.0);
+    probes[groups.order[place]] = int(std::min<double>(kMostProbes, wanted));
+  }
+  return probes;
+}
+
+void NearField::add(const std::vector<RayHit>& receivers, const PointGroups& groups,
+                    const std::vector<int>& probes, int refine, uint64_t seed, const Tick& tick,
+                    std::vector<Rgb>& sums) const {
+  forGroups(groups, tick, [&](const PointGroups::Group& group) {
+    for (uint32_t i = group.begin; i < group.end; ++i) {
+      const uint32_t r = groups.order[i];
+      sums[r] += estimate(receivers[r], probes[r] * refine, streamOf(seed, r)).radiosity;
+    }
+  });
 }
 
 }  // namespace lychnite

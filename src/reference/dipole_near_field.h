@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "lychnite/optics/profile.h"
+#include "reference/octree.h"
 #include "reference/ray_scene.h"
 
 namespace lychnite {
@@ -38,6 +39,8 @@ class NearKernel {
   std::vector<Ring> rings_;
 };
 
+std::vector<glm::vec3> positionsOf(const std::vector<RayHit>& hits);
+
 /// One near-field estimate at a receiver.
 struct NearEstimate {
   Rgb radiosity{0};
@@ -54,6 +57,15 @@ class NearField {
   NearField(const RayScene& scene, int object, const Profile& profile, double radius, int light);
 
   NearEstimate estimate(const RayHit& at, int probes, uint64_t seed) const;
+
+  /// Probes for each receiver, so that its noise is about `noise` times the receivers' mean. From pilot
+  /// estimates that are not used again, so that the choice does not bias what is estimated.
+  std::vector<int> planProbes(const std::vector<RayHit>& receivers, const PointGroups& groups, double noise,
+                              uint64_t seed) const;
+
+  /// Adds an estimate of `refine` times probes[i] to sums[i] for every receiver.
+  void add(const std::vector<RayHit>& receivers, const PointGroups& groups, const std::vector<int>& probes,
+           int refine, uint64_t seed, const Tick& tick, std::vector<Rgb>& sums) const;
 
  private:
   struct Frame;

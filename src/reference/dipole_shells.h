@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "lychnite/optics/profile.h"
@@ -9,6 +8,9 @@
 #include "reference/surface_samples.h"
 
 namespace lychnite {
+
+/// Whether samples this far apart see the profile's peak as smooth.
+bool resolves(const Profile& profile, double spacing);
 
 /// How one object's kernel is cut: shell i holds what lies between radius[i - 1] (all of space for the first)
 /// and radius[i], summed over one point in block[i] samples. Scene units.
@@ -24,21 +26,12 @@ struct ShellPlan {
   ShellPlan(const SurfaceSampler& sampler, const Profile& profile, size_t first, size_t most);
 };
 
-/// Called now and then with the fraction done, from the thread that waits; may throw to stop.
-using Tick = std::function<void(double)>;
-
-/// Calls work(group) for all groups in parallel, in a few slices with a tick after each.
-void forGroups(const PointGroups& groups, const Tick& tick,
-               const std::function<void(const PointGroups::Group&)>& work);
-
-/// Samples of an object with the flux that enters through them, dark ones left out, in the order of the
-/// curve.
-FluxPoints litSamples(const RayScene& scene, int object, const SurfaceSampler& sampler, size_t n,
-                      uint64_t seed, int light);
-
 /// One of every `block` sources along the curve, drawn by its flux, carrying what keeps the sum of any kernel
 /// unbiased: the block's flux, if its sources share their colour.
 FluxPoints thinned(const FluxPoints& sources, size_t block, uint64_t seed);
+
+/// The longest distance between a receiver and a source.
+double longestDistance(const PointGroups& receivers, const FluxPoints& sources);
 
 /// One translucent object of a scene, the points of it where the radiosity is asked for, and the sums over
 /// it.
@@ -50,12 +43,15 @@ class DipoleShells {
   const SurfaceSampler& sampler() const { return sampler_; }
   const std::vector<RayHit>& receivers() const { return receivers_; }
 
-  /// Radiosity at every receiver. Every shell gets `refine` times its plan's points, each probe count is
-  /// `probes[i] * refine`; sums of different seeds are independent.
-  std::vector<Rgb> sum(const ShellPlan& plan, int refine, const std::vector<int>& probes, uint64_t seed,
-                       const Tick& tick) const;
+  /// What the shells hold of every receiver's radiosity, with `refine` times the plan's points; sums of
+  /// different seeds are independent.
+  std::vector<Rgb> sumShells(const ShellPlan& plan, int refine, uint64_t seed, const Tick& tick) const;
 
-  /// Probes for each receiver, so that the noise of what they see is about `noise` times `scale`.
+  /// What is inside the plan's last radius, by `probes[i] * refine` probes.
+  std::vector<Rgb> sumNear(const ShellPlan& plan, int refine, const std::vector<int>& probes, uint64_t seed,
+                           const Tick& tick) const;
+
+  /// NearField's planProbes for the plan's last radius.
   std::vector<int> planProbes(const ShellPlan& plan, double noise, uint64_t seed) const;
 
  private:

@@ -89,6 +89,15 @@ PointGroups::PointGroups(const std::vector<glm::vec3>& points, size_t size) : or
   }
 }
 
+void forGroups(const PointGroups& groups, const Tick& tick,
+               const std::function<void(const PointGroups::Group&)>& work) {
+  const size_t count = groups.groups.size(), slice = std::max<size_t>(32, count / 32);
+  for (size_t begin = 0; begin < count; begin += slice) {
+    tbb::parallel_for(begin, std::min(count, begin + slice), [&](size_t i) { work(groups.groups[i]); });
+    tick(std::min(1.0, double(begin + slice) / double(count)));
+  }
+}
+
 FluxOctree::Node FluxOctree::leaf(uint32_t begin, uint32_t end, double areaEach) const {
   Node node;
   node.area = float(areaEach * (end - begin));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -30,6 +31,13 @@ struct PointGroups {
   std::vector<Group> groups;
   PointGroups(const std::vector<glm::vec3>& points, size_t size);
 };
+
+/// Called now and then with the fraction done, from the thread that waits; may throw to stop.
+using Tick = std::function<void(double)>;
+
+/// Calls work(group) for all groups in parallel, in a few slices with a tick after each.
+void forGroups(const PointGroups& groups, const Tick& tick,
+               const std::function<void(const PointGroups::Group&)>& work);
 
 /// The octree of [J02 sect. 3.2]: flux gathered over eight children a node. The sources must come in the
 /// order of a space-filling curve over the surface (SurfaceSampler); eight neighbours along it, not eight

@@ -125,4 +125,19 @@ Rgb enteringIrradiance(const RayScene& scene, double eta, const SurfacePoint& po
   return sum;
 }
 
+FluxPoints litSamples(const RayScene& scene, int object, const SurfaceSampler& sampler, size_t n,
+                      uint64_t seed, int light) {
+  const std::vector<SurfacePoint> points = sampler.sample(n, seed);
+  std::vector<glm::vec3> flux(n);
+  const double area = sampler.area() / double(n), eta = scene.medium(object).eta;
+  tbb::parallel_for(size_t(0), n, [&](size_t i) {
+    flux[i] = glm::vec3(enteringIrradiance(scene, eta, points[i], light) * area);
+  });
+  FluxPoints lit;
+  lit.reserve(n);
+  for (size_t i = 0; i < n; ++i)
+    if (flux[i] != glm::vec3(0)) lit.add(points[i].position, flux[i]);
+  return lit;
+}
+
 }  // namespace lychnite

@@ -4,6 +4,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "reference/dipole_kernel.h"
 #include "reference/ray_scene.h"
 
 namespace lychnite {
@@ -45,5 +46,10 @@ double uniformAt(uint64_t seed, uint64_t index);
 /// What enters per area at a point of the surface: the sum over the lights of Ft E cos, 0 where shadowed.
 /// `light` picks one of the scene's lights, -1 takes all.
 Rgb enteringIrradiance(const RayScene& scene, double eta, const SurfacePoint& point, int light);
+
+/// Samples of an object with the flux that enters through them, dark ones left out, in the order of the
+/// curve.
+FluxPoints litSamples(const RayScene& scene, int object, const SurfaceSampler& sampler, size_t n,
+                      uint64_t seed, int light);
 
 }  // namespace lychnite
