@@ -11,6 +11,7 @@
 #include "lychnite/optics/fresnel.h"
 #include "reference/camera_receivers.h"
 #include "reference/dipole.h"
+#include "reference/hierarchical.h"
 #include "reference/picture.h"
 #include "reference/single_light.h"
 #include "reference/walk.h"
@@ -54,7 +55,8 @@ Image renderDiffusion(const RayScene& rays, const CameraReceivers& receivers, co
   PictureParts parts;
   DiffusionSum sum;
   if (settings.components.multiple || settings.wants("radiosity")) {
-    sum = sumDipole(rays, receivers, settings, -1, progress);
+    sum = settings.method == Method::kDipole ? sumDipole(rays, receivers, settings, -1, progress)
+                                             : sumHierarchical(rays, receivers, settings, -1, progress);
     if (settings.components.multiple) parts.multiple = gathered(rays, receivers, sum.radiosity, true);
   }
   if (settings.components.single) parts.single = singlePart(rays, receivers, settings.seed, progress);
@@ -64,7 +66,8 @@ Image renderDiffusion(const RayScene& rays, const CameraReceivers& receivers, co
     addLayer(image, "radiosity", gathered(rays, receivers, sum.radiosity, false));
   image.metadata["profile"] = profileName(settings.profile);
   image.metadata["surface_samples"] = fmt::format("{}", sum.samples);
-  image.metadata["estimated_error"] = fmt::format("{:.6g}", sum.error);
+  if (settings.method == Method::kDipole)
+    image.metadata["estimated_error"] = fmt::format("{:.6g}", sum.error);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   image.metadata["seconds"] = fmt::format("{:.3f}", seconds.count());
   return image;
