@@ -147,6 +147,8 @@ RenderSettings settingsFromFlags(const Flags& flags) {
   if (!flags.samples.empty()) {
     if (settings.method == Method::kWalk)
       settings.samples = parseNumber(flags.samples, "--samples");
+    else if (settings.method == Method::kMatched)
+      settings.multipleSamples = wholeNumber(flags.samples, "--samples");
     else
       settings.singleSamples = wholeNumber(flags.samples, "--samples");
   }
@@ -254,12 +256,12 @@ void addSceneFlags(CLI::App& command, Flags& flags) {
 }
 
 void addMethodFlags(CLI::App& command, Flags& flags) {
-  command.add_option("--method", flags.method, "adaptive (default), fixed, dipole, hierarchical or walk");
+  command.add_option("--method", flags.method, "matched, adaptive (default), fixed, dipole, hierarchical or walk");
   command.add_option("--profile", flags.profile,
                      "dipole (default), better-dipole, normalized-diffusion or tabulated");
   command.add_option("--components", flags.components, "any of multiple,single,surface (default all)");
   command.add_option("--samples", flags.samples,
-                     "walk: photons per pixel (16); adaptive, fixed: single-scattering samples (8)");
+                     "matched: samples a pixel, 8 to 128 (32); walk: photons per pixel (16); adaptive, fixed: single-scattering samples (8)");
   command.add_option("--single-samples", flags.singleSamples,
                      "single-scattering samples along the refracted ray (8)");
   command.add_option("--map", flags.map, "light-space map size, 128 to 4096 (512)");

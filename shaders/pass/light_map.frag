@@ -1,5 +1,8 @@
 // The translucent shadow map. TWO_CHANNELS (Yao & Wang 2009 sect. 4.1): depth and (w_i . n). FIVE_CHANNELS
-// (Dachsbacher & Stamminger 2003): normal and irradiance, and depth. An occluder takes part with its depth only.
+// (Dachsbacher & Stamminger 2003): normal and irradiance, and depth. MOMENTS (ours): the flux that enters and its first
+// three depth moments, so that every mip level holds exactly what its texels let in. An occluder takes part with its
+// depth only.
+#include "lib/fresnel.glsl"
 #include "pass/light_view.glsl"
 
 in vec3 worldPosition;
@@ -8,6 +11,10 @@ uniform float occluder;  // 1: another object, which blocks the light
 
 #if LAYOUT == 2
 layout(location = 0) out vec2 depthAndCosine;
+#elif LAYOUT == 4
+layout(location = 0) out vec4 fluxMoments;
+uniform float eta;
+uniform float centreDepth;
 #else
 layout(location = 0) out vec4 normalAndIrradiance;
 layout(location = 1) out float mapDepth;
@@ -22,6 +29,14 @@ void main() {
   // Interpolated normals can turn away at the silhouette: what is seen is lit, if only just.
   float cosine = max(1e-4, -dot(lightTravel(view, worldPosition), n));
   depthAndCosine = vec2(depth, cosine * lit);
+#elif LAYOUT == 4
+  vec3 travel = lightTravel(view, worldPosition);
+  float cosine = max(1e-4, -dot(travel, n));
+  // Per area of the plane across the axis, for irradiance 1 at distance 1: a texel's solid angle goes by the cube.
+  float c = dot(travel, view.forward);
+  float flux = (1.0 - fresnelReflectance(min(1.0, cosine), eta)) * c * c * c * lit;
+  float z = centreDepth - depth;
+  fluxMoments = flux * vec4(1.0, z, z * z, z * z * z);
 #else
   vec3 irradiance = facingIrradiance(view, vec3(1.0), worldPosition);
   normalAndIrradiance = vec4(n, irradiance.x) * lit;

@@ -7,17 +7,38 @@
 namespace lychnite {
 namespace {
 
-gpu::Texture tableTexture(const std::vector<glm::vec3>& table) {
+gpu::Texture tableTexture(const ProfileTable& table) {
   std::vector<float> texels;
-  texels.reserve(table.size() * 4);
-  for (const glm::vec3& entry : table) texels.insert(texels.end(), {entry.x, entry.y, entry.z, 0.0f});
+  texels.reserve(size_t(table.size()) * 8);
+  for (const auto* row : {&table.RdTable(), &table.PTable()})
+    for (const glm::vec3& entry : *row) texels.insert(texels.end(), {entry.x, entry.y, entry.z, 0.0f});
   gpu::Texture texture({.label = "profile",
                         .format = gpu::Format::kRgba32f,
-                        .width = int(table.size()),
-                        .height = 1,
+                        .width = table.size(),
+                        .height = 2,
                         .filter = gpu::Filter::kLinear});
   texture.upload(std::span<const float>(texels));
   return texture;
+}
+
+/// Where the profile has passed on all but a thousandth part of its light, in the channel that reaches
+/// farthest.
+double reachOf(const Profile& profile) {
+  const Rgb total = profile.P(0);
+  double r = 1e-9;
+  for (; r < 1e9; r *= 1.2) {
+    const Rgb left = profile.P(r);
+    if (left.x <= 1e-3 * total.x && left.y <= 1e-3 * total.y && left.z <= 1e-3 * total.z) break;
+  }
+  return r;
+}
+
+/// Three times the mean core of the channels that scatter: the radius that half of the spiral's samples lie
+/// within.
+double spiralScaleOf(const Profile& profile) {
+  const Rgb core = profile.coreLength();
+  const int channels = (core.x > 0) + (core.y > 0) + (core.z > 0);
+  return channels > 0 ? (core.x + core.y + core.z) * 3 / channels : 1;
 }
 
 }  // namespace
@@ -37,7 +58,9 @@ void ProfileCache::update(const Frame& frame, ProfileKind kind) {
     if (object.translucent) {
       const auto profile = makeProfile(kind, m);
       const ProfileTable table(*profile, 1);
-      entry.Rd.emplace(tableTexture(table.RdTable()));
+      entry.table.emplace(tableTexture(table));
+      entry.reach = reachOf(*profile);
+      entry.spiralScale = spiralScaleOf(*profile);
       entry.scale = float(table.scale());
       entry.total = profile->P(0);
     } else {

@@ -10,13 +10,15 @@
 
 namespace lychnite {
 
-/// The profile of every object's medium on the device: Rd per scene unit squared (rgb) over the coordinate of
+/// The profile of every object's medium on the device: Rd per scene unit squared and P (rgb) over the coordinate of
 /// shaders/lib/profile.glsl, and what the CPU needs beside it. Made anew when medium, size or kind changes.
 class ProfileCache {
  public:
   struct Entry {
     Key key;
-    std::optional<gpu::Texture> Rd;
+    std::optional<gpu::Texture> table;  ///< lower row Rd, upper row P
+    double reach = 1;        ///< beyond it the profile is dark, scene units
+    double spiralScale = 1;  ///< of the matched sampler, scene units
     float scale = 1;  ///< of the table's coordinate, scene units
     Rgb total{0};     ///< P(0), the diffuse reflectance of the half-space
     double piC = 1;   ///< pi C(eta) of the exit lobe

@@ -55,7 +55,8 @@ struct Renderer::Impl {
   ProfileCache profiles;
   LightMapPass maps;
   GeometryPass geometry;
-  MultipleLatticeShading multiple;
+  MultipleMatchedShading matched;
+  MultipleLatticeShading lattice;
   SingleShading single;
   SurfaceShading surface;
   AmbientShading ambient;
@@ -75,6 +76,7 @@ void Renderer::Impl::draw(const Scene& scene, const RenderSettings& settings, co
   const LightMapNeeds needs{.size = settings.mapSize,
                             .cosine = true,
                             .fiveChannels = settings.method == Method::kFixed && settings.components.multiple,
+                            .moments = settings.method == Method::kMatched && settings.components.multiple,
                             .farDepth = settings.components.single};
   timed("light_map", [&] { return maps.update(frame, meshes, needs); });
   timed("geometry", [&] { return geometry.update(frame, meshes) ? 1 : 0; });
@@ -94,7 +96,10 @@ void Renderer::Impl::drawLayers(const ShadingInputs& in, const Scene& scene) {
     });
     for (LightLayers& light : layers) shown.push_back(&(light.*Layer_).texture());
   };
-  each("multiple", on.multiple, &LightLayers::multiple, multiple);
+  if (in.settings.method == Method::kMatched)
+    each("multiple", on.multiple, &LightLayers::multiple, matched);
+  else
+    each("multiple", on.multiple, &LightLayers::multiple, lattice);
   each("single", on.single, &LightLayers::single, single);
   each("surface", on.surface, &LightLayers::surface, surface);
   if (on.surface && scene.ambient != Rgb(0)) {

@@ -49,7 +49,7 @@ bool MultipleLatticeShading::update(Layer& layer, const ShadingInputs& in, size_
     map.view.setUniforms(program);
     program.setTexture("map", fixed ? *map.normal : *map.cosine);
     if (fixed) program.setTexture("mapDepth", *map.normalDepth);
-    program.setTexture("profile", *profile.Rd);
+    program.setTexture("profile", *profile.table);
     program.set("profileScale", profile.scale);
     program.set("eta", object.medium.eta);
     program.set("piC", profile.piC);
@@ -59,6 +59,32 @@ bool MultipleLatticeShading::update(Layer& layer, const ShadingInputs& in, size_
     const auto cells = makeLattice(latticeSlope(constants, medium, size), levels - 1);
     program.set("lattice", std::span<const glm::vec4>(cells));
     return &program;
+  });
+}
+
+MultipleMatchedShading::MultipleMatchedShading()
+    : program_(shadingProgram("matched", "pass/multiple_matched.frag")) {}
+
+bool MultipleMatchedShading::update(Layer& layer, const ShadingInputs& in, size_t light) {
+  constexpr double kMatched = 2;  // tells its key from the lattice's, whose first own number is 0 or 1
+  const Key key = Key().add(commonKey(in, light)).add(kMatched).add(in.settings.multipleSamples);
+  return layer.update("multiple", key, in.frame, in.geometry, [&](size_t i) -> gpu::Program* {
+    const FrameObject& object = in.frame.objects[i];
+    if (!object.translucent) return nullptr;
+    const LightMapPass::Map& map = in.maps.get(i, light);
+    const ProfileCache::Entry& profile = in.profiles.get(i);
+    map.view.setUniforms(program_);
+    program_.setTexture("moments", *map.moments);
+    program_.setTexture("profile", *profile.table);
+    program_.set("profileScale", profile.scale);
+    program_.set("centreDepth", map.view.centreDepth);
+    program_.set("boundRadius", object.bounds.radius);
+    program_.set("spiralScale", profile.spiralScale);
+    program_.set("reach", profile.reach);
+    program_.set("sampleCount", in.settings.multipleSamples);
+    program_.set("eta", object.medium.eta);
+    program_.set("piC", profile.piC);
+    return &program_;
   });
 }
 

@@ -27,6 +27,16 @@ class MultipleLatticeShading {
   gpu::Program adaptive_, fixed_;
 };
 
+/// Multiple scattering by the matched sampler.
+class MultipleMatchedShading {
+ public:
+  MultipleMatchedShading();
+  bool update(Layer& layer, const ShadingInputs& in, size_t light);
+
+ private:
+  gpu::Program program_;
+};
+
 /// Single scattering along the refracted ray.
 class SingleShading {
  public:

@@ -11,7 +11,7 @@
 namespace lychnite {
 
 /// Every --method: the real-time ones (technique/) and the CPU judges (reference/).
-enum class Method { kAdaptive, kFixed, kDipole, kHierarchical, kWalk };
+enum class Method { kMatched, kAdaptive, kFixed, kDipole, kHierarchical, kWalk };
 Method parseMethod(std::string_view name, std::string_view where);  ///< throws Error with the nearest name
 std::string methodName(Method method);
 bool isReference(Method method);  ///< rendered by reference/ on the CPU
@@ -36,6 +36,7 @@ struct RenderSettings {
   Method method = Method::kAdaptive;
   ProfileKind profile = ProfileKind::kDipole;
   Components components;
+  int multipleSamples = 32;  ///< matched, 8..128
   LatticeConstants lattice;  ///< adaptive, fixed
   int singleSamples = 8;     ///< along the refracted ray (real-time methods), 1..256
   int mapSize = 512;         ///< light-space map, 128..4096

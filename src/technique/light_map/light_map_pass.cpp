@@ -16,18 +16,19 @@ gpu::ProgramDesc mapProgram(const std::string& label, const std::string& fragmen
           .root = {}};
 }
 
-gpu::Texture mapTexture(const std::string& label, gpu::Format format, int size, bool mips) {
+gpu::Texture mapTexture(const std::string& label, gpu::Format format, int size, gpu::Filter filter) {
   return gpu::Texture({.label = label,
                        .format = format,
                        .width = size,
                        .height = size,
-                       .levels = mips ? 0 : 1,
-                       .filter = mips ? gpu::Filter::kLinearMipNearest : gpu::Filter::kNearest});
+                       .levels = filter == gpu::Filter::kNearest ? 1 : 0,
+                       .filter = filter});
 }
 
 Key keyOf(const LightView& view, const Frame& frame, size_t object, const LightMapNeeds& needs) {
   Key key = view.key();
-  key.add(double(object)).add(needs.size).add(needs.cosine).add(needs.fiveChannels).add(needs.farDepth);
+  key.add(double(object)).add(needs.size).add(needs.cosine).add(needs.fiveChannels).add(needs.moments);
+  key.add(needs.farDepth).add(needs.moments ? frame.objects[object].medium.eta : 0);
   for (const FrameObject& each : frame.objects)
     key.add(double(reinterpret_cast<uintptr_t>(each.source->mesh.get()))).add(each.toWorld);
   return key;
@@ -44,6 +45,7 @@ void setObjectUniforms(gpu::Program& program, const LightView& view, const Frame
 LightMapPass::LightMapPass()
     : cosineProgram_(mapProgram("light map, two channels", "pass/light_map.frag", {{"LAYOUT", "2"}})),
       normalProgram_(mapProgram("light map, five channels", "pass/light_map.frag", {{"LAYOUT", "5"}})),
+      momentsProgram_(mapProgram("light map, moments", "pass/light_map.frag", {{"LAYOUT", "4"}})),
       farProgram_(mapProgram("far depth", "pass/far_depth.frag", {})) {}
 
 int LightMapPass::update(const Frame& frame, const MeshCache& meshes, const LightMapNeeds& needs) {
@@ -57,6 +59,7 @@ int LightMapPass::update(const Frame& frame, const MeshCache& meshes, const Ligh
       LightMapNeeds own = needs;
       own.farDepth = needs.farDepth && frame.objects[o].translucent;
       own.fiveChannels = needs.fiveChannels && frame.objects[o].translucent;
+      own.moments = needs.moments && frame.objects[o].translucent;
       map.view = fitLightView(frame, o, l);
       const Key key = keyOf(map.view, frame, o, own);
       if (map.key == key) continue;
@@ -72,15 +75,17 @@ int LightMapPass::update(const Frame& frame, const MeshCache& meshes, const Ligh
 void LightMapPass::draw(Map& map, const Frame& frame, const MeshCache& meshes, size_t object,
                         const LightMapNeeds& needs) {
   const auto fit = [&](std::optional<gpu::Texture>& texture, bool wanted, const char* label,
-                       gpu::Format format, bool mips) {
+                       gpu::Format format, gpu::Filter filter) {
     if (texture && (!wanted || texture->width() != needs.size)) texture.reset();
-    if (wanted && !texture) texture.emplace(mapTexture(label, format, needs.size, mips));
+    if (wanted && !texture) texture.emplace(mapTexture(label, format, needs.size, filter));
   };
-  fit(depth_, true, "light map depth", gpu::Format::kDepth32f, false);
-  fit(map.cosine, needs.cosine, "light map", gpu::Format::kRg32f, true);
-  fit(map.normal, needs.fiveChannels, "light map normal", gpu::Format::kRgba32f, true);
-  fit(map.normalDepth, needs.fiveChannels, "light map normal depth", gpu::Format::kR32f, true);
-  fit(map.farDepth, needs.farDepth, "far depth", gpu::Format::kR32f, false);
+  constexpr auto kSingle = gpu::Filter::kNearest, kChain = gpu::Filter::kLinearMipNearest;
+  fit(depth_, true, "light map depth", gpu::Format::kDepth32f, kSingle);
+  fit(map.cosine, needs.cosine, "light map", gpu::Format::kRg32f, kChain);
+  fit(map.normal, needs.fiveChannels, "light map normal", gpu::Format::kRgba32f, kChain);
+  fit(map.normalDepth, needs.fiveChannels, "light map normal depth", gpu::Format::kR32f, kChain);
+  fit(map.moments, needs.moments, "light map moments", gpu::Format::kRgba32f, gpu::Filter::kLinearMipLinear);
+  fit(map.farDepth, needs.farDepth, "far depth", gpu::Format::kR32f, kSingle);
   const float background = float(map.view.backgroundDepth);
   if (map.cosine) {
     gpu::Framebuffer framebuffer({.label = "light map", .colours = {*map.cosine}, .depth = *depth_});
@@ -96,6 +101,14 @@ void LightMapPass::draw(Map& map, const Frame& frame, const MeshCache& meshes, s
     drawNearest(normalProgram_, framebuffer, map, frame, meshes, object);
     map.normal->generateMipmaps();
     map.normalDepth->generateMipmaps();
+  }
+  if (map.moments) {
+    gpu::Framebuffer framebuffer({.label = "light map", .colours = {*map.moments}, .depth = *depth_});
+    framebuffer.clearColour(0, {0, 0, 0, 0});
+    momentsProgram_.set("eta", frame.objects[object].medium.eta);
+    momentsProgram_.set("centreDepth", map.view.centreDepth);
+    drawNearest(momentsProgram_, framebuffer, map, frame, meshes, object);
+    map.moments->generateMipmaps();
   }
   if (map.farDepth) drawFarthest(map, frame, meshes, object);
 }
@@ -125,7 +138,7 @@ void LightMapPass::drawFarthest(Map& map, const Frame& frame, const MeshCache& m
 size_t LightMapPass::bytes() const {
   size_t sum = depth_ ? depth_->bytes() : 0;
   for (const auto& [index, map] : maps_)
-    for (const auto* texture : {&map.cosine, &map.normal, &map.normalDepth, &map.farDepth})
+    for (const auto* texture : {&map.cosine, &map.moments, &map.normal, &map.normalDepth, &map.farDepth})
       if (*texture) sum += (*texture)->bytes();
   return sum;
 }

@@ -18,6 +18,7 @@ struct LightMapNeeds {
   int size = 512;
   bool cosine = true;         ///< depth and (w_i . n), with mips [Yao & Wang 2009]
   bool fiveChannels = false;  ///< normal, irradiance and depth, with mips [DS03]
+  bool moments = false;      ///< flux and its depth moments, with mips (ours)
   bool farDepth = false;      ///< of translucent objects only
 };
 
@@ -31,6 +32,7 @@ class LightMapPass {
     LightView view;
     std::optional<gpu::Texture> cosine;               ///< RG32F
     std::optional<gpu::Texture> normal, normalDepth;  ///< RGBA32F, R32F
+    std::optional<gpu::Texture> moments;              ///< RGBA32F
     std::optional<gpu::Texture> farDepth;             ///< R32F, one level
     Key key;                                          ///< of everything in it but the light's power
   };
@@ -46,7 +48,7 @@ class LightMapPass {
                    const MeshCache& meshes, size_t object);
   void drawFarthest(Map& map, const Frame& frame, const MeshCache& meshes, size_t object);
 
-  gpu::Program cosineProgram_, normalProgram_, farProgram_;
+  gpu::Program cosineProgram_, normalProgram_, momentsProgram_, farProgram_;
   std::optional<gpu::Texture> depth_;  ///< shared by all maps
   std::map<std::pair<size_t, size_t>, Map> maps_;
 };

@@ -148,6 +148,7 @@ LightView fitLightView(const Frame& frame, size_t target, size_t light) {
   else
     fitPoint(view, std::get<PointLight>(frame.lights[light]), frame, target, light);
   view.backgroundDepth = view.farDepth;
+  view.centreDepth = glm::dot(frame.objects[target].bounds.centre - view.origin, view.forward);
   return view;
 }
 

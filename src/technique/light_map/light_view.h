@@ -16,6 +16,7 @@ struct LightView {
   double halfWidth = 1;  ///< orthographic: half the window; perspective: tangent of half its angle
   bool perspective = false;
   double nearDepth = 0, farDepth = 1;  ///< of all that must be drawn, occluders included
+  double centreDepth = 0;              ///< of the object's bounding sphere
   double backgroundDepth = 1;          ///< what an empty texel holds: just behind the object
   Rgb power{0};                        ///< irradiance E0, or intensity
 
