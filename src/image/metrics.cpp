@@ -75,7 +75,8 @@ Display displayOf(const Image& image, double exposure) {
   Display display;
   for (size_t c = 0; c < 3; ++c) display[c] = {image.width(), image.height(), image.channel(kColours[c])};
   for (size_t i = 0; i < image.pixelCount(); ++i) {
-    const glm::vec3 value = toneMap(image.rgb(i), {.curve = ToneMapping::Curve::kSrgb, .exposure = exposure});
+    const glm::vec3 linear(display[0].values[i], display[1].values[i], display[2].values[i]);
+    const glm::vec3 value = toneMap(linear, {.curve = ToneMapping::Curve::kSrgb, .exposure = exposure});
     for (size_t c = 0; c < 3; ++c) display[c].values[i] = value[int(c)];
   }
   return display;
