@@ -44,7 +44,7 @@ std::string_view trim(std::string_view text) {
 /// Parses the leading number; the rest of the text goes to `rest`. False when there is none or it is not
 /// finite.
 bool leadingNumber(std::string_view text, double& value, std::string_view& rest) {
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || !std::isfinite(value)) return false;
   rest = text.substr(size_t(end - text.data()));

@@ -21,6 +21,16 @@ double integrateUnit(F f) {
   return sum / kSteps;
 }
 
+/// Walsh 1926, "The reflection factor of a polished glass surface for diffused light": the mean reflectance
+/// of an index n > 1 from outside, exact; close to 1 its terms cancel.
+double walshReflectance(double n) {
+  const double n2 = n * n, n4 = n2 * n2, sum = n2 + 1, difference = n4 - 1;
+  return 0.5 + (n - 1) * (3 * n + 1) / (6 * (n + 1) * (n + 1)) +
+         n2 * (n2 - 1) * (n2 - 1) / (sum * sum * sum) * std::log((n - 1) / (n + 1)) -
+         2 * n * n2 * (n2 + 2 * n - 1) / (sum * difference) +
+         8 * n4 * (n4 + 1) / (sum * difference * difference) * std::log(n);
+}
+
 }  // namespace
 
 double fresnelReflectance(double cosI, double eta) {
@@ -46,6 +56,7 @@ double diffuseFresnelReflectance(double eta) {
 
 double diffuseTransmittanceOutside(double eta) {
   if (eta == 1) return 1;
+  if (eta > 1.01) return 1 - walshReflectance(eta);
   return 2 * integrateUnit([eta](double mu) { return fresnelTransmittance(mu, eta) * mu; });
 }
 
