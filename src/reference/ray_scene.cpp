@@ -36,6 +36,12 @@ RayMesh meshInUnits(const Object& object, const glm::dvec3& origin, double unit)
   for (const glm::vec3& n : object.mesh->normals)
     result.normals.emplace_back(placement.direction(glm::dvec3(n)));
   result.triangles = &object.mesh->triangles;
+  for (const glm::uvec3& t : object.mesh->triangles) {
+    const glm::dvec3 a = result.positions[t.x], b = result.positions[t.y], c = result.positions[t.z];
+    const glm::dvec3 n = glm::cross(b - a, c - a);
+    const double length = glm::length(n);
+    result.facets.push_back(length > 0 ? glm::vec3(n / length) : glm::vec3(0, 1, 0));
+  }
   return result;
 }
 
@@ -154,15 +160,6 @@ CameraFrame RayScene::camera(int width, int height) const {
   return frame;
 }
 
-glm::vec3 RayScene::geometricNormal(int object, uint32_t triangle) const {
-  const RayMesh& m = mesh(object);
-  const glm::uvec3& t = (*m.triangles)[triangle];
-  const glm::dvec3 a = m.positions[t.x], b = m.positions[t.y], c = m.positions[t.z];
-  const glm::dvec3 n = glm::cross(b - a, c - a);
-  const double length = glm::length(n);
-  return length > 0 ? glm::vec3(n / length) : glm::vec3(0, 1, 0);
-}
-
 RayHit RayScene::hitOf(int object, uint32_t triangle, float u, float v, float distance) const {
   const RayMesh& m = mesh(object);
   const glm::uvec3& t = (*m.triangles)[triangle];
@@ -173,7 +170,7 @@ RayHit RayScene::hitOf(int object, uint32_t triangle, float u, float v, float di
   hit.u = u;
   hit.v = v;
   hit.position = m.positions[t.x] * (1 - u - v) + m.positions[t.y] * u + m.positions[t.z] * v;
-  hit.normal = geometricNormal(object, triangle);
+  hit.normal = m.facets[triangle];
   return hit;
 }
 

@@ -43,6 +43,7 @@ struct RayLight {
 struct RayMesh {
   std::vector<glm::vec3> positions, normals;
   const std::vector<glm::uvec3>* triangles = nullptr;  ///< the mesh's own
+  std::vector<glm::vec3> facets;                       ///< unit geometric normal of each triangle
 
   /// Interpolated unit normal at a hit.
   glm::vec3 shadingNormal(const RayHit& hit) const;
@@ -89,9 +90,6 @@ class RayScene {
   /// Whether anything lies between `from` and `maxDistance` along unit `direction`.
   bool occluded(const glm::vec3& from, const glm::vec3& direction,
                 float maxDistance = std::numeric_limits<float>::infinity()) const;
-
-  /// Unit normal (counter-clockwise) and area of a triangle.
-  glm::vec3 geometricNormal(int object, uint32_t triangle) const;
 
   /// Whether a point is inside a closed object (one ray: the first surface of the object met from behind).
   bool inside(int object, const glm::vec3& point) const;

@@ -101,6 +101,12 @@ inline float henyeyGreensteinCosine(float u, float g) {
   return std::fmin(1.0f, std::fmax(-1.0f, (1.0f + g * g - q * q) / (2.0f * g)));
 }
 
+/// Henyey-Greenstein phase function, 1/sr.
+inline float henyeyGreenstein(float cosine, float g) {
+  const float d = 1.0f + g * g - 2.0f * g * cosine;
+  return (1.0f - g * g) / (4.0f * kPi * d * std::sqrt(d));
+}
+
 /// The unit direction at `cosine` from unit `d`, turned by `phi` about it (frame of Duff et al. 2017).
 inline glm::vec3 deflected(const glm::vec3& d, float cosine, float phi) {
   const float sign = std::copysign(1.0f, d.z);

@@ -30,8 +30,6 @@ constexpr uint64_t kBatches = 32;          // at least, of a run of given length
 constexpr int kPilotBlocks = 16;
 constexpr float kPilotChance = 0.3f;
 constexpr uint64_t kPilotStream = uint64_t(1) << 62;
-// Measured costs of a ray and a collision over that of a fan (2-core Xeon, 70 k triangles).
-constexpr double kRayPerFan = 0.13, kCollisionPerFan = 0.03;
 
 /// How finely the distance grid follows the surface: about two cells a mean free path, within reason.
 int gridCells(const transport::Medium& medium) {
@@ -101,6 +99,7 @@ Walk::Walk(const RayScene& rays, const CameraReceivers& receivers, const RenderS
   world_.rays = &rays_;
   world_.emission = &emission_;
   world_.lens = &lens_;
+  world_.fluxUnit = float(std::max(emission_.power(), 1e-30));
   world_.radiosity = settings.wants("radiosity");
   for (int object = 0; object < int(rays.objectCount()); ++object) addObject(object, log);
   const uint64_t even = openEnded() ? kLargestBatch : uint64_t(targetPhotons()) / kBatches;
@@ -130,15 +129,22 @@ void Walk::addObject(int object, const LogSink& log) {
               source.name.empty() ? source.model : source.name));
 }
 
-/// A short run that is thrown away: where fans of rays pay.
+/// Short runs that are thrown away: where fans of rays pay, and where they should aim.
 void Walk::learn() {
-  const WalkGuide even(kPilotChance);
-  std::vector<WalkGuideSamples> parts(kPilotBlocks);
-  const WalkTally tally = traceBlocks(even, nullptr, kPilotStream, kPilotBlocks, &parts);
-  WalkGuideSamples samples;
-  for (const WalkGuideSamples& part : parts) samples.merge(part);
-  const double work = (tally.rays * kRayPerFan + tally.collisions * kCollisionPerFan) / tally.photons;
-  guide_ = std::make_unique<WalkGuide>(samples, tally.photons, work);
+  // A sixteenth of what a short run is to do.
+  const double run = openEnded() ? 1e9 : targetPhotons();
+  const auto blocks = uint64_t(std::clamp(run / (16 * double(kBlock)), 1.0, double(kPilotBlocks)));
+  guide_ = std::make_unique<WalkGuide>(kPilotChance);
+  // The second round sees what fans add that already aim well.
+  for (uint64_t round = 0; round < 2; ++round) {
+    std::vector<WalkGuideSamples> parts(blocks);
+    const WalkTally tally = traceBlocks(*guide_, nullptr, kPilotStream + round * blocks, blocks, &parts);
+    WalkGuideSamples samples;
+    for (const WalkGuideSamples& part : parts) samples.merge(part);
+    const double work = (tally.cost() - tally.fans) / tally.photons;
+    if (round == 0) emission_.guide(samples.startImportance());
+    guide_ = std::make_unique<WalkGuide>(samples, tally.photons, work);
+  }
 }
 
 WalkTally Walk::traceBlocks(const WalkGuide& guide, WalkFilm* film, uint64_t first, uint64_t count,
@@ -260,8 +266,8 @@ void Walk::resume(const Image& image) {
          .expected = "a walk's picture of the same scene, resolution and settings",
          .found = print == image.metadata.end() ? "no state in it" : "one of another scene or settings",
          .todo = "use the scene and the flags that the picture was made with"});
-  multiple_.load(image, "state.multiple");
-  single_.load(image, "state.single");
+  if (settings_.components.multiple || world_.radiosity) multiple_.load(image, "state.multiple");
+  if (settings_.components.single) single_.load(image, "state.single");
   if (world_.radiosity) radiosity_.load(image, "state.radiosity");
   blocks_ = uint64_t(std::strtod(image.metadata.at("state.blocks").c_str(), nullptr));
 }

@@ -22,6 +22,17 @@ class WalkDistance {
     return q.x >= 0 && q.y >= 0 && q.z >= 0 && q.x < float(size_.x) && q.y < float(size_.y) &&
            q.z < float(size_.z);
   }
+  /// How far the way from p along unit `direction` is surely clear, looked for up to `wanted`: sphere after
+  /// sphere.
+  float along(const glm::vec3& p, const glm::vec3& direction, float wanted) const {
+    float clear = 0;
+    for (int step = 0; step < kSteps && clear < wanted; ++step) {
+      const float more = at(p + clear * direction);
+      if (more <= 0.25f * cell_) break;
+      clear += more;
+    }
+    return clear;
+  }
   /// Lower bound at a point, scene units; 0 outside the grid and close to a surface.
   float at(const glm::vec3& p) const {
     const glm::vec3 q = (p - min_) * perCell_;
@@ -33,6 +44,7 @@ class WalkDistance {
   }
 
  private:
+  static constexpr int kSteps = 8;
   std::vector<uint8_t> touchedCells(const RayScene& rays, int object) const;
 
   glm::vec3 min_{0};

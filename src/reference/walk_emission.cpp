@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "reference/walk_guide.h"
+
 namespace lychnite {
 
 namespace {
@@ -49,7 +51,8 @@ double arrivingPower(const RayLight& light, const Triangle& t) {
 
 WalkEmission::WalkEmission(const RayScene& rays) : rays_(rays) {
   for (uint32_t light = 0; light < rays.lights().size(); ++light) addLight(rays, light);
-  finish();
+  for (const Patch& patch : patches_) total_ += patch.share;
+  buildTable();
 }
 
 void WalkEmission::addLight(const RayScene& rays, uint32_t light) {
@@ -63,14 +66,24 @@ void WalkEmission::addLight(const RayScene& rays, uint32_t light) {
   }
 }
 
-void WalkEmission::finish() {
-  for (const Patch& patch : patches_) total_ += patch.share;
-  before_.reserve(patches_.size());
-  double sum = 0;
+void WalkEmission::guide(const std::vector<float>& importance) {
   for (Patch& patch : patches_) {
-    before_.push_back(sum / total_);
+    const Triangle t(rays_.mesh(int(patch.object)), patch.triangle);
+    patch.share *=
+        importance[WalkGuideSamples::cellOf(glm::vec3((t.corner[0] + t.corner[1] + t.corner[2]) / 3.0))];
+  }
+  buildTable();
+}
+
+void WalkEmission::buildTable() {
+  double all = 0, sum = 0;
+  for (const Patch& patch : patches_) all += patch.share;
+  before_.clear();
+  before_.reserve(patches_.size());
+  for (Patch& patch : patches_) {
+    before_.push_back(sum / all);
     sum += patch.share;
-    patch.share = float(patch.share / total_);
+    patch.share = float(patch.share / all);
   }
   guide_.resize(patches_.size());
   uint32_t at = 0;

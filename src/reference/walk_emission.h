@@ -26,6 +26,9 @@ class WalkEmission {
   /// The start for u in [0, 1): even u are even shares of the arriving power (estimated, see flux).
   Start start(double u, transport::Rng& rng) const;
 
+  /// Draws starts in proportion to power times `importance` of their cell (WalkGuideSamples::cellOf).
+  void guide(const std::vector<float>& importance);
+
   bool empty() const { return patches_.empty(); }
   /// Estimate of the arriving power without shadows, mean of RGB, scene units.
   double power() const { return total_; }
@@ -33,10 +36,10 @@ class WalkEmission {
  private:
   struct Patch {
     uint32_t light, object, triangle;
-    float share;  ///< estimated power over total
+    float share;  ///< of the starts
   };
   void addLight(const RayScene& rays, uint32_t light);
-  void finish();
+  void buildTable();
 
   const RayScene& rays_;
   std::vector<Patch> patches_;

@@ -1,69 +1,116 @@
 #include "reference/walk_guide.h"
 
 #include <algorithm>
-#include <cmath>
+#include <glm/geometric.hpp>
 
 namespace lychnite {
 
-void WalkGuideSamples::merge(const WalkGuideSamples& other) {
-  for (size_t i = 0; i < count.size(); ++i) {
-    count[i] += other.count[i];
-    squares[i] += other.squares[i];
-  }
-}
-
 namespace {
 
-/// Sums over cubes of 2^level cells, at cell resolution.
-double around(const std::vector<float>& values, size_t cell, int level) {
+using Cell = WalkGuideSamples::Cell;
+
+constexpr float kEnoughFans = 24;  // to judge a cell by itself
+constexpr float kMostKappa = 12;
+
+void add(WalkGuideSamples::Start& sum, const WalkGuideSamples::Start& other) {
+  sum.count += other.count;
+  sum.squares += other.squares;
+  sum.cost += other.cost;
+}
+
+void add(Cell& sum, const Cell& other) {
+  sum.count += other.count;
+  sum.squares += other.squares;
+  sum.reaches += other.reaches;
+  sum.light += other.light;
+  sum.towards += other.towards;
+}
+
+/// The cell, or the smallest cube of cells around it (on the grid of its size) that saw enough.
+template <class T>
+T judged(const std::vector<T>& cells, size_t cell) {
   constexpr size_t n = WalkGuideSamples::kCells;
-  const size_t side = size_t(1) << level;
-  const size_t x = cell % n / side * side, y = cell / n % n / side * side, z = cell / (n * n) / side * side;
-  double sum = 0;
-  for (size_t k = z; k < z + side; ++k)
-    for (size_t j = y; j < y + side; ++j)
-      for (size_t i = x; i < x + side; ++i) sum += double(values[(k * n + j) * n + i]);
+  const size_t x = cell % n, y = cell / n % n, z = cell / (n * n);
+  T sum;
+  for (size_t side = 1; side <= n; side *= 2) {
+    sum = T{};
+    for (size_t k = z / side * side; k < z / side * side + side; ++k)
+      for (size_t j = y / side * side; j < y / side * side + side; ++j)
+        for (size_t i = x / side * side; i < x / side * side + side; ++i)
+          add(sum, cells[(k * n + j) * n + i]);
+    if (sum.count >= kEnoughFans) break;
+  }
   return sum;
 }
 
-/// Root of a cell's mean square; from its surroundings where the pilot saw too little of it.
-double rootMeanSquare(const WalkGuideSamples& samples, size_t cell) {
-  for (int level = 0; level <= 5; ++level) {
-    const double count = around(samples.count, cell, level);
-    if (count >= 16 || level == 5)
-      return count > 0 ? std::sqrt(around(samples.squares, cell, level) / count) : 1;
-  }
-  return 1;
+/// Maximum-likelihood lobe (Banerjee et al. 2005 eq. 4.4).
+WalkGuide::Lobe lobeOf(const Cell& cell) {
+  const float length = glm::length(cell.towards);
+  if (!(cell.light > 0 && length > 0)) return {};
+  const float r = std::min(length / cell.light, 0.99f);
+  return {cell.towards / length, std::min(r * (3 - r * r) / (1 - r * r), kMostKappa)};
 }
 
 }  // namespace
 
-WalkGuide::WalkGuide(const WalkGuideSamples& samples, double photons, double work)
-    : chance_(samples.count.size()) {
-  std::vector<double> root(chance_.size());
-  for (size_t i = 0; i < root.size(); ++i) root[i] = rootMeanSquare(samples, i);
-  const double largest = *std::max_element(root.begin(), root.end());
-  if (!(largest > 0)) {
-    std::fill(chance_.begin(), chance_.end(), kLeast);
-    return;
+void WalkGuideSamples::merge(const WalkGuideSamples& other) {
+  for (size_t i = 0; i < cells.size(); ++i) add(cells[i], other.cells[i]);
+  for (size_t i = 0; i < starts.size(); ++i) add(starts[i], other.starts[i]);
+  otherSquares += other.otherSquares;
+}
+
+std::vector<float> WalkGuideSamples::startImportance() const {
+  std::vector<float> importance(starts.size(), 1);
+  double sum = 0, count = 0;
+  for (size_t i = 0; i < starts.size(); ++i) {
+    const Start start = judged(starts, i);
+    importance[i] = start.cost > 0 ? std::sqrt(start.squares / start.cost) : 0;
+    sum += double(starts[i].count) * double(importance[i]);
+    count += double(starts[i].count);
   }
-  // Per photon, variance = sum of count root^2 / chance and cost = work + sum of count chance, chance =
-  // min(1, root/l).
+  // A part is left as it was, so that what the pilot missed is not missed for good.
+  for (float& i : importance) i = sum > 0 ? 0.2f + 0.8f * float(double(i) * count / sum) : 1;
+  return importance;
+}
+
+glm::vec3 WalkGuide::Lobe::draw(float u, float phi) const {
+  const float cosine = 1 + std::log(u + (1 - u) * std::exp(-2 * kappa)) / kappa;
+  return transport::deflected(mean, std::fmax(cosine, -1.0f), phi);
+}
+
+float WalkGuide::Lobe::density(const glm::vec3& direction) const {
+  const float norm = kappa / (2 * transport::kPi * (1 - std::exp(-2 * kappa)));
+  return norm * std::exp(kappa * (glm::dot(direction, mean) - 1));
+}
+
+WalkGuide::WalkGuide(const WalkGuideSamples& samples, double photons, double work)
+    : places_(samples.cells.size()) {
+  std::vector<double> root(places_.size());
+  double largest = 0;
+  for (size_t i = 0; i < root.size(); ++i) {
+    const Cell cell = judged(samples.cells, i);
+    places_[i].lobe = lobeOf(cell);
+    root[i] = cell.count > 0 ? std::sqrt(double(cell.squares / cell.count)) : 0;
+    largest = std::max(largest, root[i]);
+  }
+  if (!(largest > 0)) return;
+  // Per photon, variance = other + sum of reach root^2 / fans, cost = work + sum of reach fans, fans = root /
+  // l.
   double bestProduct = 0, best = largest;
-  for (double l = largest; l > 1e-4 * largest; l *= 0.8) {
-    double variance = 0, cost = work;
+  for (double l = 2 * largest; l > 1e-4 * largest; l *= 0.8) {
+    double variance = samples.otherSquares / photons, cost = work;
     for (size_t i = 0; i < root.size(); ++i) {
-      if (samples.count[i] <= 0) continue;
-      const double chance = std::clamp(root[i] / l, double(kLeast), 1.0);
-      variance += double(samples.count[i]) / photons * root[i] * root[i] / chance;
-      cost += double(samples.count[i]) / photons * chance;
+      const double fans = std::clamp(root[i] / l, double(kLeast), double(kMost));
+      const double reach = double(samples.cells[i].reaches) / photons;
+      variance += reach * root[i] * root[i] / fans;
+      cost += reach * fans;
     }
     if (bestProduct == 0 || variance * cost < bestProduct) {
       bestProduct = variance * cost;
       best = l;
     }
   }
-  for (size_t i = 0; i < root.size(); ++i) chance_[i] = float(root[i] / best);
+  for (size_t i = 0; i < root.size(); ++i) places_[i].chance = float(root[i] / best);
 }
 
 }  // namespace lychnite

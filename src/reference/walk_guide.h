@@ -1,18 +1,27 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <vector>
 
 #include "reference/ray_scene.h"
+#include "reference/transport.h"
 
 namespace lychnite {
 
 /// What a pilot run saw: for each cell of a coarse grid over the unit sphere, how much a fan of rays from
-/// collisions there adds to the picture's variance.
+/// collisions there adds to the picture and to its variance, and where the light leaves.
 struct WalkGuideSamples {
   static constexpr int kCells = 32;
-  WalkGuideSamples() : count(size_t(kCells) * kCells * kCells), squares(count.size()) {}
+  struct Cell {
+    float count = 0;       ///< fans
+    float squares = 0;     ///< of their splats, over the square of the fan's reach
+    float reaches = 0;     ///< of the fans; see WalkGuide::chance
+    float light = 0;       ///< sum of splats
+    glm::vec3 towards{0};  ///< sum of splats times direction
+  };
+  WalkGuideSamples() : cells(size_t(kCells) * kCells * kCells), starts(cells.size()) {}
 
   static size_t cellOf(const glm::vec3& p) {
     size_t index = 0;
@@ -22,39 +31,59 @@ struct WalkGuideSamples {
     }
     return index;
   }
-  /// A fan from p by a photon of weight 1 (brightest channel) added `square`, the sum of its splats squared;
-  /// it stands for 1/chance fans.
-  void add(const glm::vec3& p, float square, float chance) {
-    const size_t cell = cellOf(p);
-    count[cell] += 1 / chance;
-    squares[cell] += square / chance;
-  }
   void merge(const WalkGuideSamples& other);
 
-  std::vector<float> count, squares;
+  /// Of the photons that start in a cell: how many, their splats squared, and their cost in fans.
+  struct Start {
+    float count = 0, squares = 0, cost = 0;
+  };
+  /// How often photons should start in a cell against their share of the power, for the least variance times
+  /// cost. About 1 on average and nowhere near 0.
+  std::vector<float> startImportance() const;
+
+  std::vector<Cell> cells;
+  std::vector<Start> starts;
+  double otherSquares = 0;  ///< of splats that did not come from fans
 };
 
-/// Decides at which collisions a fan of rays towards the surface pays: with a chance in proportion to the
-/// root of its second moment (the optimal roulette: variance times cost is least), learnt by a pilot.
-/// Whatever it holds, the picture is unbiased, because every fan is weighted by one over its chance.
+/// Decides how many fans of rays a collision sends towards the surface, and where: in proportion to the root
+/// of their second moment (the optimal roulette and splitting: variance times cost is least), partly along a
+/// lobe (von Mises-Fisher) towards where light that the camera sees leaves. All learnt by a pilot; whatever
+/// it holds, the picture is unbiased, because fans are weighted by one over their expected number and rays by
+/// their density.
 class WalkGuide {
  public:
-  /// The same chance everywhere, for the pilot.
-  explicit WalkGuide(float chance) : chance_(size_t(1), chance) {}
-  /// Learnt; `work` is the pilot's cost without fans over the cost of one fan, per photon, `photons` of the
+  struct Lobe {
+    glm::vec3 mean{0, 0, 1};
+    float kappa = 0;  ///< 0: nothing known
+
+    glm::vec3 draw(float u, float phi) const;
+    float density(const glm::vec3& direction) const;  ///< 1/sr
+  };
+
+  /// Nothing learnt: fans everywhere with this chance, for the pilot.
+  explicit WalkGuide(float chance) : places_(1) { places_.front().chance = chance; }
+  /// `work` is the pilot's cost without fans over the cost of one fan, per photon, `photons` those of the
   /// pilot.
   WalkGuide(const WalkGuideSamples& samples, double photons, double work);
 
-  /// Chance of a fan at p for a photon that carries `weight` of what it started with (brightest channel).
-  float chance(const glm::vec3& p, float weight) const {
-    if (chance_.size() == 1) return chance_.front();
-    const float c = weight * chance_[WalkGuideSamples::cellOf(p)];
-    return c < kLeast ? kLeast : c > 1 ? 1.0f : c;
+  /// How many fans a collision at p sends on average. `reach` is the most that a splat of it could carry,
+  /// over what the photon started with.
+  float fans(const glm::vec3& p, float reach) const {
+    return std::fmin(std::fmax(place(p).chance, kLeast) * reach, kMost);
   }
+  const Lobe& lobe(const glm::vec3& p) const { return place(p).lobe; }
 
  private:
-  static constexpr float kLeast = 0.01f;
-  std::vector<float> chance_;
+  static constexpr float kLeast = 0.01f, kMost = 8;
+  struct Place {
+    float chance = 0;
+    Lobe lobe;
+  };
+  const Place& place(const glm::vec3& p) const {
+    return places_.size() == 1 ? places_.front() : places_[WalkGuideSamples::cellOf(p)];
+  }
+  std::vector<Place> places_;
 };
 
 }  // namespace lychnite

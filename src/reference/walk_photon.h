@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <vector>
@@ -24,6 +25,7 @@ struct WalkWorld {
   std::vector<float> lobeScale;                         ///< per object, 1 / (pi C(eta)) of S_w
   std::vector<std::unique_ptr<WalkDistance>> distance;  ///< per object; none for opaque ones
   std::vector<char> closed;                             ///< per object
+  float fluxUnit = 1;                                   ///< what a photon carries on average, mean of RGB
   bool radiosity = false;                               ///< the film has layer 1
 };
 
@@ -38,6 +40,7 @@ struct WalkTally {
   double rays = 0, collisions = 0, fans = 0;  ///< work done
 
   WalkTally& operator+=(const WalkTally& other);
+  double cost() const;  ///< of the work, in fans
 };
 
 /// Flies photons one after the other. Exits of light from its last collision are splatted in expectation, by
@@ -60,15 +63,21 @@ class WalkPhotons {
   void collide(float distance);
   void meet(const RayHit& hit);
   void leave(const RayHit& hit, float cosI);
+  void goOn();
   void openFan();
-  float splatFan(float chance);
+  void splatFan(float expected, float reach);
   float splat(const RayHit& hit, const WalkLens::Seen& seen, const glm::vec3& flux);
   void splatIfSeen(const RayHit& hit, const glm::vec3& flux);
+  void learnStart(const WalkEmission::Start& start, float cost);
   void lose() {
     tally_.lost += Rgb(weight_.flux());
     alive_ = false;
   }
   const transport::Medium& medium() const { return world_.media[size_t(object_)]; }
+  float leastExtinction() const {
+    const glm::vec3& s = medium().sigma_t;
+    return std::fmin(s.x, std::fmin(s.y, s.z));
+  }
   int firstOrder() const { return world_.radiosity ? 1 : 2; }
 
   const WalkWorld& world_;
@@ -78,6 +87,9 @@ class WalkPhotons {
   transport::Rng rng_;
   WalkTally tally_;
   RayFan fan_;
+  std::array<float, RayFan::kMost>
+      fanWeight_;                ///< of each ray: phase function over density, all rays together
+  int byPhase_ = RayFan::kMost;  ///< the first rays of the fan, drawn by the phase function
 
   transport::PathWeight weight_;
   glm::vec3 position_{0}, direction_{0};
@@ -87,7 +99,7 @@ class WalkPhotons {
   int ahead_ = -1;         ///< entry of fan_ that the photon flies along; -1 none
   bool straight_ = false;  ///< nothing met since the last collision: the fan accounts for the exit
   bool alive_ = false;
-  float rouletteBelow_ = 0;
+  float photonSquares_ = 0;  ///< of its splats; only while learning
 };
 
 }  // namespace lychnite
