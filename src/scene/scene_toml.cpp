@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -41,7 +42,7 @@ Material readMaterial(const toml::table& table, const std::string& file) {
   if (!named || material.medium != library) material.name = "custom";
   material.roughness = in.number("roughness", material.roughness);
   material.colour = in.numbers("colour", material.colour);
-  validate(material.medium, file);
+  validate(material.medium, in.place());
   return material;
 }
 
@@ -59,7 +60,12 @@ Object readObject(const toml::table& table, const fs::path& path, const LogSink&
     if (!q || q->size() != 4 || !q->is_homogeneous<double>())
       in.refuse("quaternion", "four numbers with a point: w, x, y, z");
     const auto at = [q](size_t i) { return (*q)[i].value_or(0.0); };
-    object.rotation = glm::normalize(glm::dquat(at(0), at(1), at(2), at(3)));
+    object.rotation = glm::dquat(at(0), at(1), at(2), at(3));
+    const double length = glm::length(object.rotation);
+    if (!(length > 1e-6) || !std::isfinite(length))
+      in.refuse("quaternion", "four numbers that are not all 0");
+    // What we wrote ourselves is taken as it is, so that reading gives back what was written.
+    if (std::abs(length - 1) > 1e-12) object.rotation /= length;
   } else {
     object.rotation = glm::dquat(glm::radians(in.numbers("rotation", glm::dvec3(0))));
   }

@@ -41,6 +41,10 @@ TomlReader::TomlReader(const toml::table& table, std::string file,
   }
 }
 
+std::string TomlReader::place() const {
+  return fmt::format("{}:{}", file_, table_.source().begin.line);
+}
+
 std::string TomlReader::where(std::string_view key) const {
   const toml::node* found = table_.get(key);
   const auto line = found ? found->source().begin.line : table_.source().begin.line;

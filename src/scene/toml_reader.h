@@ -29,6 +29,8 @@ class TomlReader {
   const toml::array* array(std::string_view key) const;
   const toml::node* node(std::string_view key) const { return table_.get(key); }
 
+  /// "file:line" of the table.
+  std::string place() const;
   /// "file:line: key".
   std::string where(std::string_view key) const;
   [[noreturn]] void refuse(std::string_view key, std::string expected) const;
