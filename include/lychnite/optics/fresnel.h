@@ -16,7 +16,8 @@ double fresnelTransmittance(double cosI, double eta);
 /// 1973, also for eta < 1), and exactly 0 at eta = 1, where the fit would leave 0.0016.
 double diffuseFresnelReflectance(double eta);
 
-/// 2 * integral over mu in [0,1] of Ft(eta, mu) mu: the diffuse transmittance from outside, C(eta) of S_w.
+/// 2 * integral over mu in [0,1] of Ft(eta, mu) mu: the diffuse transmittance from outside, C(eta) of S_w, in
+/// Walsh's closed form (Walsh 1926).
 double diffuseTransmittanceOutside(double eta);
 
 /// First and second moments of the *internal* reflectance, C_i = integral over mu in [0,1] of R(1/eta, mu)
