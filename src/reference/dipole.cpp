@@ -15,6 +15,7 @@ namespace {
 
 constexpr size_t kFirst = 32768;           ///< samples of the outermost shell
 constexpr size_t kMost = 4 * 1024 * 1024;  ///< of the finest one before refinement
+constexpr size_t kMostEach = 256;          ///< of these for each receiver: a few are cheaper to probe about
 constexpr int kMostRefine = 16;
 constexpr double kProbeNoise = 0.02;  ///< of one receiver, before refinement
 
@@ -47,7 +48,8 @@ ObjectSums makeSums(const RayScene& scene, const CameraReceivers& camera, const 
   sums.receivers = std::move(own.index);
   sums.profile = makeProfile(settings.profile, scene.medium(object));
   sums.shells = std::make_unique<DipoleShells>(scene, object, *sums.profile, std::move(own.hits), light);
-  sums.plan = std::make_unique<ShellPlan>(sums.shells->sampler(), *sums.profile, kFirst, kMost);
+  const size_t most = std::min(kMost, kMostEach * sums.receivers.size());
+  sums.plan = std::make_unique<ShellPlan>(sums.shells->sampler(), *sums.profile, kFirst, most);
   sums.probes = sums.shells->planProbes(*sums.plan, kProbeNoise, settings.seed * 977 + uint64_t(object));
   return sums;
 }

@@ -14,17 +14,19 @@ namespace {
 
 constexpr double kSpacing = 0.125;  ///< between samples, in mean free paths
 constexpr size_t kFewest = 16 * 1024, kMost = 4 * 1024 * 1024;
-constexpr double kNearReach = 8;  ///< radius of the near field, in spacings
+constexpr size_t kMostEach = 2048, kMostOfFew = 128 * 1024;  ///< for each receiver, and for few receivers
+constexpr double kNearReach = 8;                             ///< radius of the near field, in spacings
 constexpr float kSolidAngle =
     0.05f;                     ///< largest of a node that stands for its samples, as seen from a receiver
 constexpr size_t kGroup = 32;  ///< receivers that share a traversal
-constexpr double kProbeNoise = 0.015;
+constexpr double kProbeNoise = 0.01;
 
 /// Samples of an object for the stated spacing.
-size_t sampleCount(const SurfaceSampler& sampler, const Coefficients& medium) {
+size_t sampleCount(const SurfaceSampler& sampler, const Coefficients& medium, size_t receivers) {
   const Rgb sigma_tp = medium.sigma_tp();
   const double spacing = kSpacing / std::max({sigma_tp.x, sigma_tp.y, sigma_tp.z, 1e-12});
-  return size_t(std::clamp(sampler.area() / (spacing * spacing), double(kFewest), double(kMost)));
+  return size_t(std::clamp(sampler.area() / (spacing * spacing), double(kFewest),
+                           double(std::clamp(kMostEach * receivers, kMostOfFew, kMost))));
 }
 
 /// Radiosity at the points of one object.
@@ -34,7 +36,7 @@ std::vector<Rgb> sumObject(const RayScene& scene, int object, const std::vector<
   const std::unique_ptr<Profile> profile = makeProfile(settings.profile, medium);
   const PointGroups groups(positionsOf(receivers), kGroup);
   const SurfaceSampler sampler(scene.mesh(object));
-  samples = sampleCount(sampler, medium);
+  samples = sampleCount(sampler, medium, receivers.size());
   FluxPoints sources = litSamples(scene, object, sampler, samples, settings.seed, light);
   const double reach = longestDistance(groups, sources);
   const FluxOctree tree(std::move(sources), sampler.area() / double(samples));
