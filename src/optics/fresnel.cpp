@@ -57,14 +57,9 @@ double diffuseFresnelReflectance(double eta) {
 double diffuseTransmittanceOutside(double eta) {
   // What enters from within is what leaves from outside, spread over the wider cone (d'Eon & Irving 2011).
   if (eta < 1) return eta * eta * diffuseTransmittanceOutside(1 / eta);
-  // Below this the closed form cancels, and what is left out is under 1e-7.
-  if (eta < 1 + 1e-4) return 1;
-  const double n = eta, n2 = n * n, n4 = n2 * n2;
-  const double reflected = 0.5 + (n - 1) * (3 * n + 1) / (6 * (n + 1) * (n + 1)) +
-                           n2 * (n2 - 1) * (n2 - 1) / std::pow(n2 + 1, 3) * std::log((n - 1) / (n + 1)) -
-                           2 * n2 * n * (n2 + 2 * n - 1) / ((n2 + 1) * (n4 - 1)) +
-                           8 * n4 * (n4 + 1) / ((n2 + 1) * (n4 - 1) * (n4 - 1)) * std::log(n);
-  return 1 - reflected;
+  if (eta == 1) return 1;
+  if (eta > 1.001) return 1 - walshReflectance(eta);
+  return 2 * integrateUnit([eta](double mu) { return fresnelTransmittance(mu, eta) * mu; });
 }
 
 double internalMoment(double eta, int i) {
