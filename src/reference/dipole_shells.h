@@ -41,7 +41,6 @@ class DipoleShells {
                int light);
 
   const SurfaceSampler& sampler() const { return sampler_; }
-  const std::vector<RayHit>& receivers() const { return receivers_; }
 
   /// What the shells hold of every receiver's radiosity, with `refine` times the plan's points; sums of
   /// different seeds are independent.

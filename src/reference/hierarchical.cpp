@@ -13,7 +13,7 @@ namespace lychnite {
 namespace {
 
 constexpr double kSpacing = 0.125;  ///< between samples, in mean free paths
-constexpr size_t kFewest = 16 * 1024, kMost = 4 * 1024 * 1024;
+constexpr size_t kFewest = 64 * 1024, kMost = 4 * 1024 * 1024;
 constexpr size_t kMostEach = 2048, kMostOfFew = 128 * 1024;  ///< for each receiver, and for few receivers
 constexpr double kNearReach = 8;                             ///< radius of the near field, in spacings
 constexpr float kSolidAngle =

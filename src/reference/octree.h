@@ -48,9 +48,6 @@ class FluxOctree {
   /// `areaEach` is the surface that one source stands for. Sources of no flux may have been left out.
   FluxOctree(FluxPoints sources, double areaEach);
 
-  size_t nodeCount() const { return nodes_.size(); }
-  const FluxPoints& sources() const { return sources_; }
-
   /// Appends to `list` what stands for all sources as seen from anywhere in `box`: a node as one point at its
   /// flux-weighted centroid where its area over the squared distance (the solid angle of [J02 eq. 8]) is
   /// below `solidAngle` from all of the box, the sources themselves elsewhere.

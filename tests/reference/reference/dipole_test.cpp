@@ -207,6 +207,15 @@ TEST(Dipole, EachObjectKeepsItsOwnLight) {
   EXPECT_EQ(behind, 0);
 }
 
+TEST(Dipole, NoLightOrNoScatteringIsDark) {
+  Scene unlit = litScene("stone", "marble", 20, 40);
+  unlit.lights.clear();
+  Scene clear = litScene("stone", "marble", 20, 40);
+  clear.objects[0].material.medium.sigma_s = Rgb(0);
+  for (const Scene& scene : {unlit, clear})
+    for (const glm::vec3& b : sumOf(scene, picture(12)).radiosity) EXPECT_EQ(b, glm::vec3(0));
+}
+
 TEST(Dipole, StopsWhenInterrupted) {
   int calls = 0;
   const Progress progress([&](const Progress::Update&) { return ++calls < 3; });
