@@ -56,7 +56,8 @@ glm::vec3 toneMap(const glm::vec3& linear, const ToneMapping& toneMapping) {
 
 // IEC 61966-2-1:1999, both directions.
 float srgbFromLinear(float linear) {
-  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
+  // 1.055 p - 0.055, in the order that gives exactly 1 at 1.
+  return linear <= 0.0031308f ? 12.92f * linear : 1 + 1.055f * (std::pow(linear, 1 / 2.4f) - 1);
 }
 
 float linearFromSrgb(float encoded) {

@@ -13,7 +13,7 @@
 #include <limits>
 
 #include "lychnite/base/error.h"
-#include "unit/image/scratch.h"
+#include "scratch.h"
 
 namespace lychnite {
 namespace {
@@ -43,7 +43,7 @@ std::string messageOf(const std::function<void()>& action) {
 }
 
 TEST(ExrFile, KeepsEveryChannelAndTheMetadata) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   Image image = gradient(37, 19);
   image.metadata = {{"method", "walk"},
                     {"a much longer name than thirty-one characters", "x"},
@@ -104,7 +104,7 @@ std::string shiftedHalfExr() {
 }
 
 TEST(ExrFile, ReadsHalfAndIntegerChannelsOfAShiftedWindow) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   std::ofstream(scratch / "h.exr", std::ios::binary) << shiftedHalfExr();
   const Image image = readImage(scratch / "h.exr");
   EXPECT_EQ(image.width(), 2);
@@ -114,18 +114,18 @@ TEST(ExrFile, ReadsHalfAndIntegerChannelsOfAShiftedWindow) {
 }
 
 TEST(ExrFile, RefusesMetadataThatWouldNotComeBack) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   for (const char* key : {"", " x", "x  y", "t\xc3\xa9", "channels", "type", "dataWindow"}) {
     Image image = gradient(2, 2);
     image.metadata[key] = "v";
     EXPECT_THROW(writeExr(image, scratch / "a.exr"), Error) << key;
   }
   EXPECT_THROW(writeExr(Image(), scratch / "a.exr"), Error);
-  EXPECT_TRUE(std::filesystem::is_empty(scratch.folder()));
+  EXPECT_TRUE(scratch.entries() == 0);
 }
 
 TEST(PngFile, EightAndSixteenBitsComeBackWithinHalfAStep) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   const Image image = gradient(31, 9);
   for (const int bits : {8, 16}) {
     writePng(image, scratch / "a.png", {.toneMapping = {}, .bits = bits, .alpha = true});
@@ -141,21 +141,17 @@ TEST(PngFile, EightAndSixteenBitsComeBackWithinHalfAStep) {
 }
 
 TEST(PngFile, ReadAndWrittenAgainIsTheSameFile) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   Image image(256, 1);
   for (size_t i = 0; i < 256; ++i) image.setRgb(i, glm::vec3(linearFromSrgb(float(i) / 255)));
   image.metadata = {{"method", "dipole"}, {"size", "30 mm"}, {"author", "Jos\xc3\xa9"}};
   writePng(image, scratch / "a.png");
   writePng(readImage(scratch / "a.png"), scratch / "b.png");
-  const auto bytes = [&](const char* name) {
-    std::ifstream file(scratch / name, std::ios::binary);
-    return std::string(std::istreambuf_iterator<char>(file), {});
-  };
-  EXPECT_EQ(bytes("a.png"), bytes("b.png"));
+  EXPECT_EQ(textOf(scratch / "a.png"), textOf(scratch / "b.png"));
   const Image back = readImage(scratch / "a.png");
   EXPECT_EQ(back.metadata, image.metadata);
   EXPECT_FALSE(back.has("A"));
-  EXPECT_THAT(bytes("a.png"), AllOf(HasSubstr("tEXtmethod"), HasSubstr("iTXtauthor")));
+  EXPECT_THAT(textOf(scratch / "a.png"), AllOf(HasSubstr("tEXtmethod"), HasSubstr("iTXtauthor")));
 }
 
 /// A picture as other programs write it, by libpng's own simplified interface.
@@ -171,7 +167,7 @@ void writeForeignPng(const std::filesystem::path& path, png_uint_32 format, cons
 }
 
 TEST(PngFile, ReadsGreyAndPalette) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   const png_byte grey[] = {0, 255}, greyAlpha[] = {255, 51, 0, 255}, indices[] = {1, 0};
   const png_byte palette[] = {255, 0, 0, 0, 255, 0};
   writeForeignPng(scratch / "g.png", PNG_FORMAT_GRAY, grey, nullptr, 0);
@@ -186,13 +182,13 @@ TEST(PngFile, ReadsGreyAndPalette) {
 }
 
 TEST(PngFile, RefusesWhatItCannotWrite) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   const Image image = gradient(2, 2);
   EXPECT_THROW(writePng(image, scratch / "a.png", {.toneMapping = {}, .bits = 12}), Error);
   Image depthOnly(2, 2);
   depthOnly.addChannel("depth.Z");
   EXPECT_THAT(messageOf([&] { writePng(depthOnly, scratch / "a.png"); }), HasSubstr("'R'"));
-  EXPECT_TRUE(std::filesystem::is_empty(scratch.folder()));
+  EXPECT_TRUE(scratch.entries() == 0);
 }
 
 /// Runs `action` while no file may grow beyond `bytes`: what a full disk looks like to a program.
@@ -208,7 +204,7 @@ void withFileSizeLimit(rlim_t bytes, const std::function<void()>& action) {
 }
 
 TEST(Files, FullDiskIsAnErrorThatLeavesNothing) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   Image noise(64, 64);
   unsigned state = 1;
   for (size_t i = 0; i < noise.pixelCount(); ++i)
@@ -221,21 +217,21 @@ TEST(Files, FullDiskIsAnErrorThatLeavesNothing) {
     std::string exr;
     withFileSizeLimit(limit, [&] { exr = messageOf([&] { writeExr(noise, scratch / "a.exr"); }); });
     EXPECT_THAT(exr, AllOf(HasSubstr("a.exr"), HasSubstr("cannot write"), HasSubstr("space"))) << limit;
-    EXPECT_TRUE(std::filesystem::is_empty(scratch.folder())) << limit;
+    EXPECT_TRUE(scratch.entries() == 0) << limit;
   }
   std::string png;
   withFileSizeLimit(1000, [&] { png = messageOf([&] { writePng(noise, scratch / "a.png"); }); });
   EXPECT_THAT(png, AllOf(HasSubstr("a.png"), HasSubstr("cannot write")));
-  EXPECT_TRUE(std::filesystem::is_empty(scratch.folder()));
+  EXPECT_TRUE(scratch.entries() == 0);
 }
 
 TEST(Files, UnwritableAndUnreadablePlacesAreNamed) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   const Image image = gradient(2, 2);
   EXPECT_THAT(messageOf([&] { writeExr(image, scratch / "none/a.exr"); }), HasSubstr("none"));
   EXPECT_THAT(messageOf([&] { writePng(image, scratch / "none/a.png"); }), HasSubstr("none"));
   EXPECT_THAT(messageOf([&] { readImage(scratch / "none.exr"); }), HasSubstr("no such file"));
-  EXPECT_THAT(messageOf([&] { readImage(scratch.folder()); }), HasSubstr("a folder"));
+  EXPECT_THAT(messageOf([&] { readImage(scratch.path()); }), HasSubstr("a folder"));
   std::ofstream(scratch / "empty.png").close();
   EXPECT_THAT(messageOf([&] { readImage(scratch / "empty.png"); }), HasSubstr("an empty file"));
   std::ofstream(scratch / "text.exr") << "not a picture";
@@ -244,28 +240,23 @@ TEST(Files, UnwritableAndUnreadablePlacesAreNamed) {
 }
 
 TEST(Files, ContentDecidesNotTheName) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   writePng(gradient(3, 2), scratch / "a.exr");
   EXPECT_EQ(readImage(scratch / "a.exr").width(), 3);
 }
 
-std::string bytesOf(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 void replaceBytes(const std::filesystem::path& path, size_t at, const std::string& bytes) {
-  std::string all = bytesOf(path);
+  std::string all = textOf(path);
   ASSERT_LE(at + bytes.size(), all.size());
   all.replace(at, bytes.size(), bytes);
   std::ofstream(path, std::ios::binary) << all;
 }
 
 TEST(Files, GiantClaimsAreRefusedBeforeAllocating) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   writeExr(gradient(4, 4), scratch / "a.exr");
   // The data window's xMin, yMin, xMax, yMax follow the name, the type and the length.
-  const size_t window = bytesOf(scratch / "a.exr").find("dataWindow");
+  const size_t window = textOf(scratch / "a.exr").find("dataWindow");
   const size_t corner = window + std::string("dataWindow.box2i.size").size();
   replaceBytes(scratch / "a.exr", corner + 8, std::string("\xff\xff\xff\x3f", 4));
   EXPECT_THAT(messageOf([&] { readImage(scratch / "a.exr"); }), HasSubstr("1073741824 x 4"));
@@ -274,7 +265,7 @@ TEST(Files, GiantClaimsAreRefusedBeforeAllocating) {
 }
 
 TEST(Files, TruncationIsAnError) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   writeExr(gradient(40, 40), scratch / "a.exr");
   writePng(gradient(40, 40), scratch / "a.png");
   for (const char* name : {"a.exr", "a.png"}) {
