@@ -2,6 +2,7 @@
 
 // Exact unpolarised reflectance; cosI in [0, 1] on the near side, eta = far over near index.
 float fresnelReflectance(float cosI, float eta) {
+  if (eta == 1.0) return 0.0;  // what follows would call grazing light totally reflected
   float sin2T = (1.0 - cosI * cosI) / (eta * eta);
   if (sin2T >= 1.0) return 1.0;
   float cosT = sqrt(1.0 - sin2T);

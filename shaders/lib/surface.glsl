@@ -1,9 +1,10 @@
 // The coat: GGX microfacets over a Lambertian base. Twin: optics/surface.h. Needs lib/fresnel.glsl.
 
-// Walter et al. 2007 eq. 33.
-float ggxDistribution(float cosH, float alpha) {
+// Walter et al. 2007 eq. 33, by the squared sine between n and h: in single precision the cosine says nothing about a
+// smooth coat's narrow peak.
+float ggxDistribution(float sin2H, float alpha) {
   float a2 = alpha * alpha;
-  float d = cosH * cosH * (a2 - 1.0) + 1.0;
+  float d = sin2H + (1.0 - sin2H) * a2;
   return a2 / (3.141592653589793 * d * d);
 }
 
@@ -22,7 +23,8 @@ vec3 surfaceResponse(vec3 base, float eta, float roughness, float piC, vec3 n, v
   if (cosI <= 0.0 || cosO <= 0.0) return vec3(0.0);
   float alpha = roughness * roughness;
   vec3 h = normalize(wi + wo);
-  float specular = fresnelReflectance(max(0.0, dot(h, wi)), eta) * ggxDistribution(dot(n, h), alpha) *
+  vec3 across = cross(n, h);
+  float specular = fresnelReflectance(max(0.0, dot(h, wi)), eta) * ggxDistribution(dot(across, across), alpha) *
                    smithVisibility(cosI, cosO, alpha);
   float diffuse = (1.0 - fresnelReflectance(cosI, eta)) * exitLobe(cosO, eta, piC);
   return (vec3(specular) + base * diffuse) * cosI;
