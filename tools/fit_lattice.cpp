@@ -1,6 +1,7 @@
-// Fits the paper's constants C1 and C2 (K = 1, see LatticeConstants) against the dipole judge: the pair with the smallest
-// mean relative RMSE of the multiple-scattering component over the sizes, materials, models and lights below, and prints
-// the whole grid so that the choice can be seen. Takes some minutes: fit_lattice > docs/data/lattice-fit.txt
+// Fits the paper's constants C1 and C2 (K = 1, see LatticeConstants) against the dipole judge: the pair with
+// the smallest mean relative RMSE of the multiple-scattering component over the sizes, materials, models and
+// lights below, and prints the whole grid so that the choice can be seen. Takes some minutes: fit_lattice >
+// docs/data/lattice-fit.txt
 #include <fmt/format.h>
 
 #include <vector>
@@ -72,8 +73,10 @@ Score score(ImageMaker& maker, const std::vector<Case>& cases, const LatticeCons
 int main() {
   ImageMaker maker({});
   const std::vector<Case> cases = makeCases(maker);
-  fmt::print("# sizes 1 3 10 30 100 300 mm; fig6 marble skin1 wholemilk; sphere figurine stone; lights -30,40 and 150,25; "
-             "512 map, 96 x 96\n# C1 C2 mean relative RMSE (as it is, after one best gain per picture)\n");
+  fmt::print(
+      "# sizes 1 3 10 30 100 300 mm; fig6 marble skin1 wholemilk; sphere figurine stone; lights -30,40 and "
+      "150,25; "
+      "512 map, 96 x 96\n# C1 C2 mean relative RMSE (as it is, after one best gain per picture)\n");
   LatticeConstants best;
   double bestError = 1e9;
   for (double C1 = 0.25; C1 < 3.6; C1 += 0.25) {

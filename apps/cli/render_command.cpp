@@ -26,7 +26,7 @@ struct Flags {
   std::string model, size, material, sigma_s, sigma_a, rotate, camera, background, ambient, saveScene;
   std::vector<std::string> lights;
   std::string g, eta, roughness;
-  std::string method = "adaptive", profile = "dipole", components, aov, resolution = "600x600", samples,
+  std::string method = "matched", profile = "dipole", components, aov, resolution = "600x600", samples,
               singleSamples, map;
   std::string exposure = "0", toneMap = "srgb", time;
   std::string noise, tolerance;
@@ -256,7 +256,7 @@ void addSceneFlags(CLI::App& command, Flags& flags) {
 }
 
 void addMethodFlags(CLI::App& command, Flags& flags) {
-  command.add_option("--method", flags.method, "matched, adaptive (default), fixed, dipole, hierarchical or walk");
+  command.add_option("--method", flags.method, "matched (default), adaptive, fixed, dipole, hierarchical or walk");
   command.add_option("--profile", flags.profile,
                      "dipole (default), better-dipole, normalized-diffusion or tabulated");
   command.add_option("--components", flags.components, "any of multiple,single,surface (default all)");

@@ -13,6 +13,7 @@ uniform float centreDepth;
 uniform float boundRadius;    // of the object's bounding sphere, whose centre the axis passes
 uniform float spiralScale;    // half of the samples lie within this distance
 uniform float reach;          // beyond it the profile is dark in every channel
+uniform sampler2D azimuths;   // cosine and sine for sample (u) and eccentricity (v), see technique/multiple/spiral.h
 uniform int sampleCount;
 uniform float eta;
 uniform float piC;
@@ -147,15 +148,17 @@ vec3 radiosity(LightView view, Receiver r) {
   float rc = 1.05 * boundRadius + g.texel;
   float e0 = min(length(g.p), 0.999 * rc);
   vec2 inwards = e0 > 1e-6 ? -g.p / length(g.p) : vec2(1.0, 0.0);
-  float farShare = radialShare(min(length(vec2(rc + e0, d)), length(vec2(reach, d))), spiralScale) - g0;
-  float nearShare = radialShare(min(length(vec2(rc - e0, d)), length(vec2(reach, d))), spiralScale) - g0;
+  float farthest = length(vec2(reach, d));
+  float farShare = radialShare(min(length(vec2(rc + e0, d)), farthest), spiralScale) - g0;
+  float nearShare = radialShare(min(length(vec2(rc - e0, d)), farthest), spiralScale) - g0;
   float e = 0.9 * (farShare - nearShare) / max(1e-9, farShare + nearShare);
   Sum sum = Sum(vec3(0.0), vec3(0.0), 0.0, 0.0, vec3(1e30));
   float inverse = 1.0 / float(sampleCount);
+  float rows = float(textureSize(azimuths, 0).y);
+  float row = (e / 0.9 * (rows - 1.0) + 0.5) / rows;
   for (int i = 0; i < sampleCount; ++i) {
-    float turn = 6.283185307179586 * (fract(0.6180339887 * float(i)) - 0.5);
-    float phi = warpedAzimuth(turn, e);
-    float edge = min(length(vec2(distanceToCircle(e0, rc, phi), d)), length(vec2(reach, d)));
+    vec2 phi = textureLod(azimuths, vec2((float(i) + 0.5) * inverse, row), 0.0).xy;
+    float edge = min(length(vec2(distanceToCircle(e0, rc, phi.x, phi.y), d)), farthest);
     float share = radialShare(edge, spiralScale) - g0;
     vec3 at = vec3(float(i), float(i) + 0.5, float(i) + 1.0) * (inverse * share) + g0;
     float ra = radiusOfShare(at.x, spiralScale);
@@ -164,8 +167,8 @@ vec3 radiosity(LightView view, Receiver r) {
     float a = i == 0 ? 0.0 : sqrt(max(0.0, ra * ra - d * d));
     float q = sqrt(max(1e-16, rq * rq - d * d));
     float b = sqrt(max(1e-16, rb * rb - d * d));
-    float area = 3.141592653589793 * (b * b - a * a) / (1.0 + e * cos(phi));
-    vec2 o = q * (cos(phi) * inwards + sin(phi) * vec2(-inwards.y, inwards.x));
+    float area = 3.141592653589793 * (b * b - a * a) / (1.0 + e * phi.x);
+    vec2 o = q * (phi.x * inwards + phi.y * vec2(-inwards.y, inwards.x));
     vec2 uv = g.uv + o / g.width;
     if (uv.x < 0.0 || uv.y < 0.0 || uv.x > 1.0 || uv.y > 1.0) continue;
     addCell(sum, g, uv, area, a, b, q, i);

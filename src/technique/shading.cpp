@@ -1,6 +1,7 @@
 #include "technique/shading.h"
 
 #include "technique/multiple/lattice.h"
+#include "technique/multiple/spiral.h"
 
 namespace lychnite {
 namespace {
@@ -65,6 +66,18 @@ bool MultipleLatticeShading::update(Layer& layer, const ShadingInputs& in, size_
 MultipleMatchedShading::MultipleMatchedShading()
     : program_(shadingProgram("matched", "pass/multiple_matched.frag")) {}
 
+const gpu::Texture& MultipleMatchedShading::azimuths(int samples) {
+  if (azimuths_ && azimuths_->width() == samples) return *azimuths_;
+  azimuths_.emplace(gpu::TextureDesc{.label = "azimuths",
+                                     .format = gpu::Format::kRg32f,
+                                     .width = samples,
+                                     .height = kAzimuthRows,
+                                     .filter = gpu::Filter::kLinear});
+  const std::vector<glm::vec2> table = azimuthTable(samples, kAzimuthRows);
+  azimuths_->upload(std::span<const float>(&table[0].x, table.size() * 2));
+  return *azimuths_;
+}
+
 bool MultipleMatchedShading::update(Layer& layer, const ShadingInputs& in, size_t light) {
   constexpr double kMatched = 2;  // tells its key from the lattice's, whose first own number is 0 or 1
   const Key key = Key().add(commonKey(in, light)).add(kMatched).add(in.settings.multipleSamples);
@@ -76,6 +89,7 @@ bool MultipleMatchedShading::update(Layer& layer, const ShadingInputs& in, size_
     map.view.setUniforms(program_);
     program_.setTexture("moments", *map.moments);
     program_.setTexture("profile", *profile.table);
+    program_.setTexture("azimuths", azimuths(in.settings.multipleSamples));
     program_.set("profileScale", profile.scale);
     program_.set("centreDepth", map.view.centreDepth);
     program_.set("boundRadius", object.bounds.radius);

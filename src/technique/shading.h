@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "gpu/program.h"
 #include "lychnite/scene/settings.h"
 #include "technique/layer.h"
@@ -34,7 +36,10 @@ class MultipleMatchedShading {
   bool update(Layer& layer, const ShadingInputs& in, size_t light);
 
  private:
+  const gpu::Texture& azimuths(int samples);
+
   gpu::Program program_;
+  std::optional<gpu::Texture> azimuths_;
 };
 
 /// Single scattering along the refracted ray.

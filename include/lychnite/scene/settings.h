@@ -33,7 +33,7 @@ struct LatticeConstants {
 /// How a Scene is rendered, the same structure for every method; each reads what concerns it.
 struct RenderSettings {
   int width = 600, height = 600;  ///< 1..16384
-  Method method = Method::kAdaptive;
+  Method method = Method::kMatched;
   ProfileKind profile = ProfileKind::kDipole;
   Components components;
   int multipleSamples = 32;  ///< matched, 8..128

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <vector>
+
+namespace lychnite {
+
+// The golden-angle spiral of the matched sampler in double precision (docs/physics.md, "The matched
+// sampler").
+
+/// Solves phi + e sin(phi) = m for m in [-pi, pi], e in [0, 1): azimuths whose density is (1 + e cos(phi)) /
+/// 2 pi. To 1e-12.
+double warpedAzimuth(double m, double e);
+
+/// (cos, sin) of the azimuths of `samples` golden-angle turns (columns) for `rows` eccentricities from 0 to
+/// kLargestEccentricity (rows): what the shader looks up instead of solving for each sample of each pixel.
+std::vector<glm::vec2> azimuthTable(int samples, int rows);
+
+inline constexpr double kLargestEccentricity = 0.9;
+inline constexpr int kAzimuthRows = 64;
+
+}  // namespace lychnite
