@@ -87,16 +87,6 @@ dvec4 irradianceTwin(const Inputs& in) {
   return dvec4(dvec3(1, 2, 5) * (view.perspective ? std::pow(distance, -2.0) : 1.0), 0);
 }
 
-/// phi + e sin(phi) = m by bisection.
-double azimuthByBisection(double m, double e) {
-  double low = -std::numbers::pi, high = std::numbers::pi;
-  for (int i = 0; i < 100; ++i) {
-    const double middle = 0.5 * (low + high);
-    (middle + e * std::sin(middle) < m ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
-}
-
 /// The circle met by a ray from a point inside: |e0 centre - t direction| = rc, the larger root.
 double circleByRoots(double e0, double rc, double phi) {
   const dvec2 centre(e0, 0), d(std::cos(phi), std::sin(phi));
@@ -144,8 +134,19 @@ std::vector<Twin> viewTwins() {
   };
 }
 
+/// Eccentric points and radii with the cosine and sine of a full turn of directions.
+std::vector<Inputs> aroundTheCircle(const std::vector<double>& offsets, const std::vector<double>& radii) {
+  std::vector<Inputs> grid;
+  for (const double offset : offsets)
+    for (const double radius : radii)
+      for (int i = 0; i < 33; ++i) {
+        const double phi = 2 * std::numbers::pi * i / 32;
+        grid.push_back({dvec4(offset, radius, float(std::cos(phi)), float(std::sin(phi))), {}, {}, {}, {}});
+      }
+  return grid;
+}
+
 std::vector<Twin> spiralTwins() {
-  const double pi = double(float(std::numbers::pi));
   return {
       {.function = "radialShare",
        .value = [](const Inputs& in) { return dvec4(1 / (1 + in[0].y / in[0].x)); },
@@ -153,15 +154,14 @@ std::vector<Twin> spiralTwins() {
       {.function = "radiusOfShare",
        .value = [](const Inputs& in) { return dvec4(in[0].y / (1 / in[0].x - 1)); },
        .grid = numbers({{1e-3, 0.1, 0.5, 0.9, 0.99}, {0.01, 0.3, 5}})},
-      {.function = "warpedAzimuth",
-       .value = [](const Inputs& in) { return dvec4(azimuthByBisection(in[0].x, in[0].y)); },
-       .grid = numbers({range(-pi, pi, 61), {-0.9, -0.5, 0, 0.3, 0.6, 0.9}}),
-       .formula = 2e-3,  // four steps of Newton's method where the slope is nearly 0 (|e| = 0.9)
-       .rounding = 2e-3},
       {.function = "distanceToCircle",
-       .value = [](const Inputs& in) { return dvec4(circleByRoots(in[0].x, in[0].y, in[0].z)); },
-       .grid = numbers({{0, 0.1, 0.3, 0.45}, {0.5, 0.525}, range(-pi, pi, 33)}),
-       .floor = 0.1},
+       .value =
+           [](const Inputs& in) {
+             return dvec4(circleByRoots(in[0].x, in[0].y, std::atan2(in[0].w, in[0].z)));
+           },
+       .grid = aroundTheCircle({0, 0.1, 0.3, 0.45}, {0.5, 0.525}),
+       .floor = 0.1,
+       .formula = 1e-6},  // cosine and sine are floats, so their squares do not quite add up to 1
   };
 }
 
