@@ -6,6 +6,7 @@
 #include <cmath>
 #include <csetjmp>
 #include <cstdio>
+#include <fstream>
 #include <memory>
 
 #include "image/file_checks.h"
@@ -90,11 +91,27 @@ bool readRows(Session& session, png_bytepp rows) {
   return true;
 }
 
-[[noreturn]] void throwDamaged(const fs::path& path, const Session& session) {
+[[noreturn]] void throwDamaged(const fs::path& path, const std::string& found) {
   throw Error({.where = path.string(),
                .expected = "a whole PNG picture",
-               .found = oneLine(session.message),
+               .found = oneLine(found),
                .todo = "the file is truncated or damaged; write it again"});
+}
+
+/// Walks the chunks before libpng does, which allocates whatever length one claims.
+void checkChunks(const fs::path& path) {
+  constexpr int64_t kSignature = 8, kFrame = 12;  // a chunk's length, name and checksum
+  const auto end = int64_t(fs::file_size(path));
+  std::ifstream file(path, std::ios::binary);
+  for (int64_t at = kSignature; at < end;) {
+    std::array<unsigned char, 8> raw{};
+    file.seekg(at);
+    file.read(reinterpret_cast<char*>(raw.data()), raw.size());
+    const int64_t length = int64_t(raw[0]) << 24 | raw[1] << 16 | raw[2] << 8 | raw[3];
+    at += kFrame + length;
+    if (!file || at > end) throwDamaged(path, "a chunk that reaches past the end of the file");
+    if (std::equal(raw.begin() + 4, raw.end(), "IEND")) return;  // what follows is nobody's business
+  }
 }
 
 /// Grey or grey with alpha or RGB or RGBA to linear channels.
@@ -219,11 +236,12 @@ Image readPng(const fs::path& path) {
   if (!file)
     throw Error(
         {.where = path.string(), .expected = "", .found = "cannot read", .todo = "check its permissions"});
+  checkChunks(path);
   Reader reader;
   reader.png =
       png_create_read_struct(PNG_LIBPNG_VER_STRING, static_cast<Session*>(&reader), onError, onWarning);
   if (reader.png) reader.info = png_create_info_struct(reader.png);
-  if (!readHeader(reader, file.get())) throwDamaged(path, reader);
+  if (!readHeader(reader, file.get())) throwDamaged(path, reader.message);
 
   const auto width = png_get_image_width(reader.png, reader.info);
   const auto height = png_get_image_height(reader.png, reader.info);
@@ -237,7 +255,7 @@ Image readPng(const fs::path& path) {
                 .bytes = {},
                 .rows = {}};
   pixels.allocate();
-  if (!readRows(reader, pixels.rows.data())) throwDamaged(path, reader);
+  if (!readRows(reader, pixels.rows.data())) throwDamaged(path, reader.message);
   Image image = imageOf(pixels);
   readText(reader, image);
   return image;

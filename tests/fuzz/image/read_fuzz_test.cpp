@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <cmath>
 #include <fstream>
@@ -14,6 +15,10 @@ namespace {
 
 // A picture of up to 16 MiB is believed from any file; its channels are allocated one by one.
 constexpr size_t kMostBytes = size_t(48) << 20;
+
+// What the whole program may grow to, which also sees what the libraries take by malloc. The address
+// sanitizer's quarantine of 256 MiB is part of it.
+constexpr long kMostResidentKib = 640 * 1024;
 
 class ReadFuzz : public testing::TestWithParam<const char*> {
  protected:
@@ -50,6 +55,12 @@ class ReadFuzz : public testing::TestWithParam<const char*> {
     }
     EXPECT_LT(largestAllocation(), kMostBytes) << what;
     return loaded;
+  }
+
+  void TearDown() override {
+    rusage usage{};
+    ASSERT_EQ(getrusage(RUSAGE_SELF, &usage), 0);
+    EXPECT_LT(usage.ru_maxrss, kMostResidentKib);
   }
 
   ScratchFolder scratch_;

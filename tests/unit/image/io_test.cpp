@@ -181,6 +181,22 @@ TEST(PngFile, ReadsGreyAndPalette) {
   EXPECT_EQ(readImage(scratch / "p.png").rgb(1), glm::vec3(1, 0, 0));
 }
 
+TEST(PngFile, TakesBytesAfterItsEnd) {
+  const ScratchFolder scratch;
+  writePng(gradient(3, 2), scratch / "a.png");
+  std::ofstream(scratch / "a.png", std::ios::binary | std::ios::app) << "\xff\xff\xff\xffjunk";
+  EXPECT_EQ(readImage(scratch / "a.png").width(), 3);
+}
+
+TEST(PngFile, RefusesAChunkLongerThanTheFile) {
+  const ScratchFolder scratch;
+  writePng(gradient(3, 2), scratch / "a.png");
+  std::string bytes = textOf(scratch / "a.png");
+  bytes[bytes.find("sRGB") - 4] = 0x40;
+  std::ofstream(scratch / "b.png", std::ios::binary) << bytes;
+  EXPECT_THAT(messageOf([&] { readImage(scratch / "b.png"); }), HasSubstr("past the end of the file"));
+}
+
 TEST(PngFile, RefusesWhatItCannotWrite) {
   const ScratchFolder scratch;
   const Image image = gradient(2, 2);
