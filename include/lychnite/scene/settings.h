@@ -27,7 +27,7 @@ std::string componentsName(const Components& components);
 /// C1 K and C2 K, so K stays 1. The defaults are tools/fit_lattice's, see docs/sampling.md for its sizes, materials and
 /// remaining error.
 struct LatticeConstants {
-  double C1 = 1.75, C2 = 0.375, K = 1;
+  double C1 = 1.5, C2 = 0.375, K = 1;
 };
 
 /// How a Scene is rendered, the same structure for every method; each reads what concerns it.
