@@ -71,7 +71,7 @@ class LineTransform {
 
 }  // namespace
 
-WalkDistance::WalkDistance(const RayScene& rays, int object, int cells) {
+WalkDistance::WalkDistance(const RayScene& rays, int object, int longest) {
   const auto& positions = rays.mesh(object).positions;
   glm::vec3 low = positions.front(), high = low;
   for (const glm::vec3& p : positions) {
@@ -79,14 +79,14 @@ WalkDistance::WalkDistance(const RayScene& rays, int object, int cells) {
     high = glm::max(high, p);
   }
   const glm::vec3 extent = high - low;
-  cell_ = std::max({extent.x, extent.y, extent.z}) / float(cells - 2);
+  cell_ = std::max({extent.x, extent.y, extent.z}) / float(longest - 2);
   perCell_ = 1 / cell_;
   min_ = low - cell_;
   size_ = glm::uvec3(glm::ceil(extent * perCell_)) + 2u;
   const std::vector<uint8_t> touched = touchedCells(rays, object);
 
-  bound_.resize(touched.size());
-  for (size_t i = 0; i < touched.size(); ++i) bound_[i] = touched[i] ? 0.0f : LineTransform::kFar;
+  std::vector<float> squared(touched.size());
+  for (size_t i = 0; i < touched.size(); ++i) squared[i] = touched[i] ? 0.0f : LineTransform::kFar;
   const std::array<size_t, 3> stride = {1, size_.x, size_t(size_.x) * size_.y};
   for (int axis = 0; axis < 3; ++axis) {
     const int u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
@@ -94,7 +94,7 @@ WalkDistance::WalkDistance(const RayScene& rays, int object, int cells) {
     tbb::parallel_for(0u, uint32_t(size_[v]), [&](uint32_t j) {
       LineTransform line(length);
       for (uint32_t i = 0; i < size_[u]; ++i) {
-        float* first = &bound_[i * stride[size_t(u)] + j * stride[size_t(v)]];
+        float* first = &squared[i * stride[size_t(u)] + j * stride[size_t(v)]];
         for (size_t k = 0; k < length; ++k) line.values[k] = first[k * stride[size_t(axis)]];
         const auto& result = line.transform();
         for (size_t k = 0; k < length; ++k) first[k * stride[size_t(axis)]] = result[k];
@@ -103,7 +103,11 @@ WalkDistance::WalkDistance(const RayScene& rays, int object, int cells) {
   }
   // Between cell centres; the surface may be anywhere in the touched cell.
   const float halfDiagonal = 0.5f * std::sqrt(3.0f);
-  for (float& b : bound_) b = cell_ * (std::sqrt(b) * (1 - 1e-5f) - halfDiagonal);
+  bound_.resize(squared.size());
+  for (size_t i = 0; i < squared.size(); ++i) {
+    const float cells = std::sqrt(squared[i]) * (1 - 1e-5f) - halfDiagonal;
+    bound_[i] = uint8_t(std::clamp(std::floor(kPerCell * cells), 0.0f, 255.0f));
+  }
 }
 
 std::vector<uint8_t> WalkDistance::touchedCells(const RayScene& rays, int object) const {

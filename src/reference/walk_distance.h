@@ -24,9 +24,11 @@ class WalkDistance {
   }
   /// How far the way from p along unit `direction` is surely clear, looked for up to `wanted`: sphere after
   /// sphere.
-  float along(const glm::vec3& p, const glm::vec3& direction, float wanted) const {
-    float clear = 0;
-    for (int step = 0; step < kSteps && clear < wanted; ++step) {
+  /// `first` is what is known to be clear about p.
+  float along(const glm::vec3& p, const glm::vec3& direction, float wanted, float first) const {
+    float clear = first;
+    if (first <= 0.25f * cell_) return first;
+    for (int step = 1; step < kSteps && clear < wanted; ++step) {
       const float more = at(p + clear * direction);
       if (more <= 0.25f * cell_) break;
       clear += more;
@@ -40,17 +42,20 @@ class WalkDistance {
     const auto i = uint32_t(q.x), j = uint32_t(q.y), k = uint32_t(q.z);
     if (i >= size_.x || j >= size_.y || k >= size_.z) return 0;
     const glm::vec3 off = q - glm::vec3(float(i) + 0.5f, float(j) + 0.5f, float(k) + 0.5f);
-    return bound_[(size_t(k) * size_.y + j) * size_.x + i] - cell_ * std::sqrt(glm::dot(off, off));
+    const auto bound = float(bound_[(size_t(k) * size_.y + j) * size_.x + i]);
+    return cell_ * (bound / kPerCell - std::sqrt(glm::dot(off, off)));
   }
 
  private:
   static constexpr int kSteps = 8;
+  static constexpr float kPerCell =
+      4;  ///< stored steps per cell: one byte each, so that the grid stays in the cache
   std::vector<uint8_t> touchedCells(const RayScene& rays, int object) const;
 
   glm::vec3 min_{0};
   float cell_ = 1, perCell_ = 1;
   glm::uvec3 size_{1};
-  std::vector<float> bound_;  ///< for the cell's centre
+  std::vector<uint8_t> bound_;  ///< for the cell's centre, rounded down
 };
 
 }  // namespace lychnite

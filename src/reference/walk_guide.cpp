@@ -10,6 +10,7 @@ namespace {
 using Cell = WalkGuideSamples::Cell;
 
 constexpr float kEnoughFans = 24;  // to judge a cell by itself
+constexpr float kPrior = 4;        // fans of the usual kind that every cell is taken to have seen as well
 constexpr float kMostKappa = 12;
 
 void add(WalkGuideSamples::Start& sum, const WalkGuideSamples::Start& other) {
@@ -24,6 +25,7 @@ void add(Cell& sum, const Cell& other) {
   sum.reaches += other.reaches;
   sum.light += other.light;
   sum.towards += other.towards;
+  sum.splats += other.splats;
 }
 
 /// The cell, or the smallest cube of cells around it (on the grid of its size) that saw enough.
@@ -47,7 +49,8 @@ T judged(const std::vector<T>& cells, size_t cell) {
 WalkGuide::Lobe lobeOf(const Cell& cell) {
   const float length = glm::length(cell.towards);
   if (!(cell.light > 0 && length > 0)) return {};
-  const float r = std::min(length / cell.light, 0.99f);
+  // Few splats agree by chance.
+  const float r = std::min(length / cell.light, 0.99f) * cell.splats / (cell.splats + 2);
   return {cell.towards / length, std::min(r * (3 - r * r) / (1 - r * r), kMostKappa)};
 }
 
@@ -56,7 +59,7 @@ WalkGuide::Lobe lobeOf(const Cell& cell) {
 void WalkGuideSamples::merge(const WalkGuideSamples& other) {
   for (size_t i = 0; i < cells.size(); ++i) add(cells[i], other.cells[i]);
   for (size_t i = 0; i < starts.size(); ++i) add(starts[i], other.starts[i]);
-  otherSquares += other.otherSquares;
+  commonSquares += other.commonSquares;
 }
 
 std::vector<float> WalkGuideSamples::startImportance() const {
@@ -69,7 +72,7 @@ std::vector<float> WalkGuideSamples::startImportance() const {
     count += double(starts[i].count);
   }
   // A part is left as it was, so that what the pilot missed is not missed for good.
-  for (float& i : importance) i = sum > 0 ? 0.2f + 0.8f * float(double(i) * count / sum) : 1;
+  for (float& i : importance) i = sum > 0 ? 0.3f + 0.7f * float(double(i) * count / sum) : 1;
   return importance;
 }
 
@@ -87,18 +90,21 @@ WalkGuide::WalkGuide(const WalkGuideSamples& samples, double photons, double wor
     : places_(samples.cells.size()) {
   std::vector<double> root(places_.size());
   double largest = 0;
+  Cell all;
+  for (const Cell& cell : samples.cells) add(all, cell);
+  const float usual = all.count > 0 ? all.squares / all.count : 0;
   for (size_t i = 0; i < root.size(); ++i) {
     const Cell cell = judged(samples.cells, i);
     places_[i].lobe = lobeOf(cell);
-    root[i] = cell.count > 0 ? std::sqrt(double(cell.squares / cell.count)) : 0;
+    root[i] = std::sqrt(double((cell.squares + kPrior * usual) / (cell.count + kPrior)));
     largest = std::max(largest, root[i]);
   }
   if (!(largest > 0)) return;
-  // Per photon, variance = other + sum of reach root^2 / fans, cost = work + sum of reach fans, fans = root /
-  // l.
+  // Per photon, variance = common + sum of reach root^2 / fans, cost = work + sum of reach fans, fans = root
+  // / l.
   double bestProduct = 0, best = largest;
   for (double l = 2 * largest; l > 1e-4 * largest; l *= 0.8) {
-    double variance = samples.otherSquares / photons, cost = work;
+    double variance = samples.commonSquares / photons, cost = work;
     for (size_t i = 0; i < root.size(); ++i) {
       const double fans = std::clamp(root[i] / l, double(kLeast), double(kMost));
       const double reach = double(samples.cells[i].reaches) / photons;

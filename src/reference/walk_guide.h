@@ -20,6 +20,7 @@ struct WalkGuideSamples {
     float reaches = 0;     ///< of the fans; see WalkGuide::chance
     float light = 0;       ///< sum of splats
     glm::vec3 towards{0};  ///< sum of splats times direction
+    float splats = 0;      ///< how many
   };
   WalkGuideSamples() : cells(size_t(kCells) * kCells * kCells), starts(cells.size()) {}
 
@@ -43,7 +44,7 @@ struct WalkGuideSamples {
 
   std::vector<Cell> cells;
   std::vector<Start> starts;
-  double otherSquares = 0;  ///< of splats that did not come from fans
+  double commonSquares = 0;  ///< what photons add to the variance that more fans would not lessen
 };
 
 /// Decides how many fans of rays a collision sends towards the surface, and where: in proportion to the root

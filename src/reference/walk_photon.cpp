@@ -1,5 +1,6 @@
 #include "reference/walk_photon.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -48,17 +49,43 @@ void WalkPhotons::fly(double u, int channel) {
   order_ = 0;
   alive_ = true;
   const double costBefore = tally_.cost();
-  photonSquares_ = 0;
+  splats_.clear();
+  sources_ = 0;
   arrive(start.hit);
   while (alive_) object_ < 0 ? stepOutside() : stepInside();
-  if (learn_) learnStart(start, float(tally_.cost() - costBefore));
+  if (learn_) learnPhoton(start, float(tally_.cost() - costBefore));
 }
 
-void WalkPhotons::learnStart(const WalkEmission::Start& start, float cost) {
+/// What this photon adds to the picture's variance: its splats in one pixel add up. What splats of different
+/// sources have in common there, and in expectation those of one fan, more fans would not lessen.
+void WalkPhotons::learnPhoton(const WalkEmission::Start& start, float cost) {
+  std::sort(splats_.begin(), splats_.end(), [](const Splat& a, const Splat& b) {
+    return a.pixel != b.pixel ? a.pixel < b.pixel : a.source < b.source;
+  });
+  double squares = 0, common = 0;
+  for (size_t i = 0; i < splats_.size();) {
+    double pixel = 0, apart = 0;
+    const size_t first = i;
+    while (i < splats_.size() && splats_[i].pixel == splats_[first].pixel) {
+      double sum = 0, alone = 0;
+      const Splat s = splats_[i];
+      for (; i < splats_.size() && splats_[i].pixel == s.pixel && splats_[i].source == s.source; ++i) {
+        sum += double(splats_[i].value);
+        alone += double(splats_[i].value) * double(splats_[i].value);
+      }
+      pixel += sum;
+      apart += sum * sum;
+      constexpr double kPairs = double(RayFan::kMost) / (RayFan::kMost - 1);
+      common += s.source == 0 ? sum * sum : (sum * sum - alone) * kPairs / double(s.stands);
+    }
+    squares += pixel * pixel;
+    common += pixel * pixel - apart;
+  }
   auto& cell = learn_->starts[WalkGuideSamples::cellOf(start.hit.position)];
   cell.count += 1;
-  cell.squares += photonSquares_;
+  cell.squares += float(squares);
   cell.cost += cost + kStartCost;
+  learn_->commonSquares += common;
 }
 
 /// From outside onto a translucent surface: mirrored or refracted, by Fresnel.
@@ -75,6 +102,7 @@ void WalkPhotons::arrive(const RayHit& hit) {
     straight_ = false;
   }
   position_ = offPoint(hit, direction_);
+  clear_ = 0;
 }
 
 void WalkPhotons::stepOutside() {
@@ -101,13 +129,14 @@ void WalkPhotons::stepOutside() {
 }
 
 void WalkPhotons::stepInside() {
+  if (!(clear_ >= 0)) clear_ = std::fmax(0.0f, world_.distance[size_t(object_)]->at(position_));
   const float flight = weight_.drawFlight(medium(), rng_);
   RayHit hit;
   if (ahead_ >= 0) {
     hit = fan_.hit[size_t(ahead_)];
     ahead_ = -1;
   } else {
-    const float clear = world_.distance[size_t(object_)]->along(position_, direction_, flight);
+    const float clear = world_.distance[size_t(object_)]->along(position_, direction_, flight, clear_);
     if (clear >= flight) return collide(flight);
     // In an open mesh only a ray to the end tells a wall from a hole.
     const bool closed = world_.closed[size_t(object_)];
@@ -128,6 +157,7 @@ void WalkPhotons::stepInside() {
 void WalkPhotons::collide(float distance) {
   tally_.collisions += 1;
   position_ += distance * direction_;
+  clear_ = -1;
   if (!world_.distance[size_t(object_)]->contains(position_)) return lose();
   tally_.absorbed += Rgb(weight_.scatter(medium(), distance));
   ++order_;
@@ -143,8 +173,8 @@ void WalkPhotons::collide(float distance) {
 /// After a collision: fans as the guide says, and the direction to go on.
 void WalkPhotons::goOn() {
   // Nothing leaves from here without passing the nearest surface.
-  const float clear = std::fmax(0.0f, world_.distance[size_t(object_)]->at(position_));
-  const float reach = weight_.largest() * (1 / world_.fluxUnit) * std::exp(-leastExtinction() * clear);
+  clear_ = std::fmax(0.0f, world_.distance[size_t(object_)]->at(position_));
+  const float reach = weight_.largest() / world_.fluxUnit * std::exp(-leastExtinction() * clear_);
   const float expected = film_ || learn_ ? guide_.fans(position_, reach) : 0;
   const int fans = int(expected + rng_.uniform());
   if (fans == 0) {
@@ -207,6 +237,7 @@ void WalkPhotons::splatFan(float expected, float reach) {
   traceSight(*world_.rays, sight);
   WalkGuideSamples::Cell* learn = learn_ ? &learn_->cells[WalkGuideSamples::cellOf(position_)] : nullptr;
   const float each = 1 / expected;
+  ++sources_;
   for (size_t n = 0; n < size_t(sight.count); ++n) {
     if (sight.blocked[n]) continue;
     const auto i = size_t(ray[n]);
@@ -216,9 +247,10 @@ void WalkPhotons::splatFan(float expected, float reach) {
     const glm::vec3 flux = weight_.passing(medium(), hit.distance) * (T * fanWeight_[i]);
     const float value = splat(hit, seen[n], flux * each) * expected;
     if (!learn) continue;
-    photonSquares_ += value * value * each * each;
+    splats_.push_back({seen[n].pixel, sources_, value * each, each});
     learn->squares += value * value / (reach * reach) * each;
     learn->light += value * each;
+    learn->splats += 1;
     learn->towards += fan_.direction[i] * (value * each);
   }
   if (!learn) return;
@@ -250,9 +282,8 @@ void WalkPhotons::splatIfSeen(const RayHit& hit, const glm::vec3& flux) {
   if (seen.pixel < 0 || glm::dot(seen.direction, hit.normal) <= 0) return;
   tally_.rays += 1;
   if (world_.rays->occluded(offPoint(hit, seen.direction), seen.direction, seen.distance)) return;
-  const double value = double(splat(hit, seen, flux));
-  if (learn_) learn_->otherSquares += value * value;
-  photonSquares_ += float(value * value);
+  const float value = splat(hit, seen, flux);
+  if (learn_) splats_.push_back({seen.pixel, 0, value, 1});
 }
 
 void WalkPhotons::meet(const RayHit& hit) {
@@ -270,6 +301,7 @@ void WalkPhotons::meet(const RayHit& hit) {
   shells_ += cosI > 0 ? -1 : 1;
   straight_ = false;
   position_ = offPoint(hit, direction_);
+  clear_ = 0;
 }
 
 /// From inside onto the surface: mirrored back, or out.
@@ -286,6 +318,7 @@ void WalkPhotons::leave(const RayHit& hit, float cosI) {
     object_ = -1;
   }
   position_ = offPoint(hit, direction_);
+  clear_ = 0;
 }
 
 }  // namespace lychnite

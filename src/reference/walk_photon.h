@@ -68,7 +68,7 @@ class WalkPhotons {
   void splatFan(float expected, float reach);
   float splat(const RayHit& hit, const WalkLens::Seen& seen, const glm::vec3& flux);
   void splatIfSeen(const RayHit& hit, const glm::vec3& flux);
-  void learnStart(const WalkEmission::Start& start, float cost);
+  void learnPhoton(const WalkEmission::Start& start, float cost);
   void lose() {
     tally_.lost += Rgb(weight_.flux());
     alive_ = false;
@@ -99,7 +99,16 @@ class WalkPhotons {
   int ahead_ = -1;         ///< entry of fan_ that the photon flies along; -1 none
   bool straight_ = false;  ///< nothing met since the last collision: the fan accounts for the exit
   bool alive_ = false;
-  float photonSquares_ = 0;  ///< of its splats; only while learning
+  float clear_ = -1;  ///< distance known to be clear about the position; below 0 unknown
+  /// Splats of this photon, kept only while learning.
+  struct Splat {
+    int64_t pixel;
+    int source;  ///< number of its fan, from 1; 0 for none
+    float value;
+    float stands;  ///< 1 / expected number of its fans
+  };
+  std::vector<Splat> splats_;
+  int sources_ = 0;
 };
 
 }  // namespace lychnite
