@@ -24,9 +24,12 @@ fs::path temporaryBeside(const fs::path& path) {
 
 void refuseFolderProblems(const fs::path& path) {
   std::error_code code;
-  if (fs::is_directory(path, code))
-    throw Error(
-        {.where = path.string(), .expected = "a file name to write to", .found = "a folder", .todo = ""});
+  // Renaming onto a device or a pipe would replace it.
+  if (fs::exists(path, code) && !fs::is_regular_file(path, code))
+    throw Error({.where = path.string(),
+                 .expected = "a file name to write to",
+                 .found = fs::is_directory(path, code) ? "a folder" : "something that is not a plain file",
+                 .todo = ""});
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   if (!fs::is_directory(folder, code))
     throw Error({.where = path.string(),
