@@ -50,6 +50,7 @@ double fresnelTransmittance(double cosI, double eta) {
 
 double diffuseFresnelReflectance(double eta) {
   if (eta == 1) return 0;
+  if (eta > 2) return 1 - diffuseTransmittanceOutside(eta) / (eta * eta);
   if (eta > 1) return -1.440 / (eta * eta) + 0.710 / eta + 0.668 + 0.0636 * eta;
   return -0.4399 + 0.7099 / eta - 0.3319 / (eta * eta) + 0.0636 / (eta * eta * eta);
 }

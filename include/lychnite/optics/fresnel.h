@@ -12,8 +12,9 @@ double fresnelReflectance(double cosI, double eta);
 /// 1 - fresnelReflectance.
 double fresnelTransmittance(double cosI, double eta);
 
-/// Fdr, the mean internal diffuse reflectance: [J01] sect. 2.2's rational fit for eta > 1 (Egan & Hilgeman
-/// 1973, also for eta < 1), and exactly 0 at eta = 1, where the fit would leave 0.0016.
+/// Fdr, the mean internal diffuse reflectance: [J01] sect. 2.2's rational fit for 1 < eta <= 2 (Egan &
+/// Hilgeman 1973, also for eta < 1), the exact value above, where the fit leaves it (and passes 1 at
+/// eta 3.85), and exactly 0 at eta = 1, where the fit would leave 0.0016.
 double diffuseFresnelReflectance(double eta);
 
 /// 2 * integral over mu in [0,1] of Ft(eta, mu) mu: the diffuse transmittance from outside, C(eta) of S_w, in

@@ -8,8 +8,8 @@ const char* const kPasses[]{"light_map", "geometry", "multiple", "single", "surf
 
 class CacheImage : public RenderTest {
  protected:
-  /// Renders twice with a change in between: which passes ran, one digit each, in kPasses' order. The second picture must
-  /// be what a renderer without a past makes of it.
+  /// Renders twice with a change in between: which passes ran, one digit each, in kPasses' order. The second
+  /// picture must be what a renderer without a past makes of it.
   std::string after(const Scene& before, const Scene& changed) {
     render(before, smallPicture(Method::kAdaptive, 64));
     const Image kept = render(changed, smallPicture(Method::kAdaptive, 64));

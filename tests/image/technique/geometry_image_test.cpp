@@ -77,7 +77,8 @@ TEST_F(GeometryImage, DepthAndNormalAreTheSpheres) {
       ++compared;
       // Facets lie up to 0.002 mm below the sphere, and the mean depth of a pixel's corners up to 0.01 mm.
       EXPECT_NEAR(image.channel("depth.Z")[i], *t * glm::dot(d, camera.forward), 0.02) << x << ", " << y;
-      const glm::dvec3 shown(image.channel("normal.X")[i], image.channel("normal.Y")[i], image.channel("normal.Z")[i]);
+      const glm::dvec3 shown(image.channel("normal.X")[i], image.channel("normal.Y")[i],
+                             image.channel("normal.Z")[i]);
       EXPECT_NEAR(glm::length(shown), 1, 1e-5);
       EXPECT_GT(glm::dot(shown, n), std::cos(0.5 * kPi / 180)) << x << ", " << y;
     }

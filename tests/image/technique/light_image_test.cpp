@@ -22,7 +22,9 @@ TEST_F(LightImage, SizeAndMeanFreePathCancel) {
   // All that the GPU sees is relative to the object's size; what is left are the last digits of the inputs.
   for (const Method method : kMethods)
     for (const double s : {0.01, 30.0})
-      EXPECT_LT(difference(render(knotScene(s), smallPicture(method)), render(knotScene(), smallPicture(method))), 1e-4)
+      EXPECT_LT(
+          difference(render(knotScene(s), smallPicture(method)), render(knotScene(), smallPicture(method))),
+          1e-4)
           << methodName(method) << " " << s;
 }
 
@@ -104,7 +106,8 @@ TEST_F(LightImage, AnOpaqueObjectBeforeTheLightDarkens) {
     roof.rotation = glm::dquat(std::sqrt(0.5), std::sqrt(0.5), 0, 0);  // lies flat
     roof.position = {0, 60, 0};                                        // far above the picture
     scene.objects.push_back(roof);
-    EXPECT_LT(meanOf(render(scene, smallPicture(method))), 0.01 * open) << methodName(method) << ": all of the light";
+    EXPECT_LT(meanOf(render(scene, smallPicture(method))), 0.01 * open)
+        << methodName(method) << ": all of the light";
     scene.objects[1].position.x = 6;
     const double half = meanOf(render(scene, smallPicture(method)));
     EXPECT_NEAR(half / open, 0.5, 0.1) << methodName(method) << ": one half of it";
@@ -112,8 +115,8 @@ TEST_F(LightImage, AnOpaqueObjectBeforeTheLightDarkens) {
 }
 
 TEST_F(LightImage, TheRimHasNoHalo) {
-  // A marble sphere lit from the front: with its inside light only, no pixel of the rim is brighter, for what it covers,
-  // than the brightest of the full pixels around it.
+  // A marble sphere lit from the front: with its inside light only, no pixel of the rim is brighter, for what
+  // it covers, than the brightest of the full pixels around it.
   for (const Method method : kMethods) {
     Scene scene = oneObject("sphere", 20);
     scene.camera = OrbitCamera{.factor = 1.2};
@@ -131,7 +134,8 @@ TEST_F(LightImage, TheRimHasNoHalo) {
             const size_t j = pixelAt(image, x + dx, y + dy);
             if (A[j] == 1) brightest = std::max(brightest, image.rgb(j).y);
           }
-        EXPECT_LE(image.rgb(i).y, 1.02f * brightest * A[i] + 1e-6f) << methodName(method) << " " << x << ", " << y;
+        EXPECT_LE(image.rgb(i).y, 1.02f * brightest * A[i] + 1e-6f)
+            << methodName(method) << " " << x << ", " << y;
       }
   }
 }

@@ -13,7 +13,8 @@
 
 namespace lychnite {
 
-/// Tests that render: one renderer in a debug context, where an OpenGL error is a failure; skipped where there is none.
+/// Tests that render: one renderer in a debug context, where an OpenGL error is a failure; skipped where
+/// there is none.
 class RenderTest : public testing::Test {
  protected:
   void SetUp() override {
@@ -23,7 +24,9 @@ class RenderTest : public testing::Test {
       GTEST_SKIP() << error.what();
     }
   }
-  Image render(const Scene& scene, const RenderSettings& settings) { return renderer_->render(scene, settings); }
+  Image render(const Scene& scene, const RenderSettings& settings) {
+    return renderer_->render(scene, settings);
+  }
   /// How often a pass ran in the last render; -1 when it was not part of it.
   int runs(const std::string& pass) const {
     for (const RenderStats::Pass& each : renderer_->stats().passes)
