@@ -121,21 +121,24 @@ NearField::NearField(const RayScene& scene, int object, const Profile& profile, 
       eta_(scene.medium(object).eta),
       kernel_(profile, radius) {}
 
-/// kernel * irradiance over the number of probes that any axis would send here, per area.
-Rgb NearField::hitTerm(const Frame& frame, const RayHit& hit) const {
+/// What a hit by a probe along `axis` adds: kernel * irradiance over the density of that axis' probes per
+/// area, times its weight against the other axes' by the power heuristic (Veach & Guibas 1995).
+Rgb NearField::hitTerm(const Frame& frame, size_t axis, const RayHit& hit) const {
   const glm::dvec3 d = glm::dvec3(hit.position) - frame.origin;
   const double r = glm::length(d);
   if (r >= kernel_.radius()) return Rgb(0);
-  double density = 0;
+  double own = 0, squares = 0;
   for (size_t a = 0; a < 3; ++a) {
     const double along = glm::dot(d, frame.axis[a]);
     const double across = std::sqrt(std::max(0.0, r * r - along * along));
-    density +=
+    const double density =
         frame.probes[a] * kernel_.density(across) * std::abs(glm::dot(glm::dvec3(hit.normal), frame.axis[a]));
+    squares += density * density;
+    if (a == axis) own = density;
   }
-  if (density <= 0) return Rgb(0);
+  if (squares <= 0) return Rgb(0);
   const Rgb entering = enteringIrradiance(scene_, eta_, {hit.position, hit.normal}, light_);
-  return kernel_.kernel(r) * entering / density;
+  return kernel_.kernel(r) * entering * (own / squares);
 }
 
 void NearField::addHits(const Frame& frame, int axis, const glm::vec3& offset, NearSum& sum) const {
@@ -148,7 +151,7 @@ void NearField::addHits(const Frame& frame, int axis, const glm::vec3& offset, N
   for (int crossing = 0; crossing < 64 && left > 0; ++crossing) {
     const RayHit hit = scene_.nearest(from, down, left);
     if (!hit) return;
-    if (hit.object == object_) sum.add(hitTerm(frame, hit));
+    if (hit.object == object_) sum.add(hitTerm(frame, size_t(axis), hit));
     from = offPoint(hit, down);
     left -= hit.distance + RayScene::kOffset;
   }
@@ -158,7 +161,7 @@ NearEstimate NearField::estimate(const RayHit& at, int probes, uint64_t seed) co
   const glm::dvec3 n(at.normal);
   const glm::dvec3 helper = std::abs(n.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
   const glm::dvec3 t = glm::normalize(glm::cross(n, helper));
-  const int side = std::max(1, probes / 4);
+  const int side = std::max(1, probes / 16);
   const Frame frame{.origin = at.position,
                     .axis = {n, t, glm::cross(n, t)},
                     .probes = {std::max(2, probes - 2 * side), side, side}};

@@ -48,7 +48,7 @@ struct NearEstimate {
 };
 
 /// Integrates the near kernel over the object's surface about `at` with probe rays through discs across the
-/// normal and two tangents (King et al. 2013, combined by the balance heuristic), spread by a shifted
+/// normal and two tangents (King et al. 2013, combined by the power heuristic), spread by a shifted
 /// Fibonacci lattice. The tangent plane under the receiver's own light is taken out exactly (a control
 /// variate): flat, evenly lit surfaces have no noise, and a radius far below all features gives mass Ft E
 /// cos. Unbiased for any probe count.
@@ -70,7 +70,7 @@ class NearField {
  private:
   struct Frame;
   void addHits(const Frame& frame, int axis, const glm::vec3& offset, class NearSum& sum) const;
-  Rgb hitTerm(const Frame& frame, const RayHit& hit) const;
+  Rgb hitTerm(const Frame& frame, size_t axis, const RayHit& hit) const;
 
   const RayScene& scene_;
   int object_, light_;
