@@ -75,13 +75,13 @@ Ground groundOf(LightView view, Receiver r) {
   float above = surfaceAbove(m.xy, g.z, log2(float(textureSize(moments, 0).x)));
   float cosI = -dot(r.normal, lightTravel(view, r.position));
   float tan2 = (1.0 - cosI * cosI) / max(0.02, cosI * cosI);
-  if (cosI > 0.0 && abs(above) < g.texel * (1.5 * sqrt(tan2) + 0.25)) {
-    // Lit: put the receiver onto the surface that the map holds, whose texels know it only to within their slope.
-    g.z += above;
-    g.slope2 = tan2;
-    above = 0.0;
-  }
-  g.depth = above;
+  // Lit: put the receiver onto the surface that the map holds, whose texels know it only to within their slope. Faded,
+  // so that the edge of a shadow does not follow the texels.
+  float slack = g.texel * (1.5 * sqrt(tan2) + 0.25);
+  float lit = cosI > 0.0 ? 1.0 - smoothstep(0.5 * slack, 2.0 * slack, abs(above)) : 0.0;
+  g.z += lit * above;
+  g.slope2 = lit * tan2;
+  g.depth = (1.0 - lit) * above;
   return g;
 }
 

@@ -112,12 +112,12 @@ void weld(Mesh& mesh, RepairReport& report) {
   for (glm::uvec3& t : mesh.triangles) t = {first[t.x], first[t.y], first[t.z]};
 }
 
-bool turnIfInsideOut(Mesh& mesh) {
+bool turnIfInsideOut(Mesh& mesh, const EdgeFacts& edges) {
   const Bounds bounds = boundsOf(mesh);
   const double side = bounds.longestSide();
   constexpr double kRounding = 1e-12;  // two sheets back to back enclose nothing, up to rounding
   if (signedVolume(mesh, bounds) >= -kRounding * side * side * side) return false;
-  if (!edgeFacts(mesh.triangles, firstEquals(mesh.positions)).closed()) return false;
+  if (!edges.closed()) return false;
   for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
   return true;
 }
@@ -151,7 +151,9 @@ RepairReport repairInPlace(Mesh& mesh, const std::string& where) {
                  .todo = "export the model again"});
   dropUnused(mesh);
   report.unused_vertices = report.file_vertices - report.duplicate_vertices - mesh.positions.size();
-  report.flipped = turnIfInsideOut(mesh);
+  const EdgeFacts edges = edgeFacts(mesh.triangles, firstEquals(mesh.positions));
+  report.boundary_edges = edges.boundary;
+  report.flipped = turnIfInsideOut(mesh, edges);
   if (report.normals_made)
     mesh.normals = angleWeightedNormals(mesh.positions, mesh.triangles);
   else
