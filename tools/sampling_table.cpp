@@ -37,10 +37,10 @@ constexpr Row kRows[] = {{"adaptive", Method::kAdaptive, 32},
 
 RenderSettings settingsOf(Method method, int samples) {
   RenderSettings settings;
-  settings.width = settings.height = 128;
+  settings.width = settings.height = 96;
   settings.method = method;
   settings.multipleSamples = samples;
-  settings.tolerance = 0.005;
+  settings.tolerance = 0.01;
   settings.components = {.multiple = true, .single = false, .surface = false};
   return settings;
 }

@@ -142,7 +142,7 @@ void addCell(inout Sum sum, Ground g, vec2 uv, float area, float a, float b, flo
 
 vec3 radiosity(LightView view, Receiver r) {
   Ground g = groundOf(view, r);
-  float d = 0.2 * max(g.depth, 0.0);
+  float d = min(0.2 * max(g.depth, 0.0), 0.5 * spiralScale);  // lit surface may be nearer than straight above
   float g0 = radialShare(d, spiralScale);
   // The spiral fills the object's circle, which lies off the receiver by e0.
   float rc = 1.05 * boundRadius + g.texel;
