@@ -36,13 +36,14 @@ void setLane(RTCRay8& ray, int i, const glm::vec3& from, const glm::vec3& direct
 
 }  // namespace
 
-void traceInside(const RayScene& rays, int object, const glm::vec3& from, RayFan& fan) {
+void traceInside(const RayScene& rays, int object, RayFan& fan) {
   const Lanes lanes(fan.count);
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRayHit8 packet;
   for (int i = 0; i < fan.count; ++i) {
-    setLane(packet.ray, i, from, fan.direction[size_t(i)], std::numeric_limits<float>::infinity());
+    setLane(packet.ray, i, fan.from[size_t(i)], fan.direction[size_t(i)],
+            std::numeric_limits<float>::infinity());
     packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
@@ -56,7 +57,7 @@ void traceInside(const RayScene& rays, int object, const glm::vec3& from, RayFan
     // needed.
     hit.triangle = packet.hit.primID[i];
     hit.distance = packet.ray.tfar[i];
-    hit.position = from + hit.distance * fan.direction[size_t(i)];
+    hit.position = fan.from[size_t(i)] + hit.distance * fan.direction[size_t(i)];
     hit.normal = glm::normalize(glm::vec3(packet.hit.Ng_x[i], packet.hit.Ng_y[i], packet.hit.Ng_z[i]));
     hit.u = packet.hit.u[i];
     hit.v = packet.hit.v[i];

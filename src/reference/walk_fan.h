@@ -7,16 +7,20 @@
 
 namespace lychnite {
 
-/// Rays that are traced together. Entries past `count` are not used.
+/// Rays inside an object that are traced together. Entries past `count` are not used.
 struct RayFan {
   static constexpr int kMost = 8;
   int count = 0;
+  std::array<glm::vec3, kMost> from;
   std::array<glm::vec3, kMost> direction;  ///< unit
   std::array<RayHit, kMost> hit;
+  std::array<glm::vec3, kMost> first;  ///< direction before any mirroring
+  std::array<float, kMost> before;     ///< length flown before `from`
+  std::array<float, kMost> weight;     ///< share of the flux, but for attenuation
 };
 
-/// Nearest surfaces for light inside `object` from one point along all directions of the fan.
-void traceInside(const RayScene& rays, int object, const glm::vec3& from, RayFan& fan);
+/// Nearest surfaces for light inside `object`.
+void traceInside(const RayScene& rays, int object, RayFan& fan);
 
 /// Sight lines that are tested together.
 struct SightFan {

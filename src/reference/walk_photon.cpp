@@ -11,6 +11,9 @@ namespace {
 constexpr float kRouletteBelow = 0.05f;  // of what a photon carries on average
 constexpr float kStartCost = 0.2f;       // of a photon before its first step, in fans
 constexpr float kGoldenAngle = 2.39996323f;
+constexpr int kFollowed = 2;        // mirrorings inside that a fan's rays go through
+constexpr float kFollowChance = 2;  // of a ray that carries all of the photon's flux
+constexpr int kUnaccounted = 1000;  // mirrorings of a photon whose exit no fan stands for
 constexpr int kByPhase =
     2;  // rays of a fan that follow the phase function, where the guide knows better ones
 
@@ -99,7 +102,7 @@ void WalkPhotons::arrive(const RayHit& hit) {
     object_ = hit.object;
     shells_ = 1;
     ahead_ = -1;
-    straight_ = false;
+    mirrorings_ = kUnaccounted;
   }
   position_ = offPoint(hit, direction_);
   clear_ = 0;
@@ -122,7 +125,7 @@ void WalkPhotons::stepOutside() {
     object_ = hit.object;
     shells_ = 1;
     ahead_ = -1;
-    straight_ = false;
+    mirrorings_ = kUnaccounted;
   } else {
     lose();
   }
@@ -163,7 +166,7 @@ void WalkPhotons::collide(float distance) {
   ++order_;
   alive_ = weight_.survives(kRouletteBelow * world_.fluxUnit, rng_);
   if (!alive_) return;
-  straight_ = true;
+  mirrorings_ = 0;
   if (order_ >= firstOrder())
     goOn();
   else
@@ -210,52 +213,97 @@ void WalkPhotons::openFan() {
     const glm::vec3& d = fan_.direction[size_t(i)];
     const float phase = transport::henyeyGreenstein(glm::dot(direction_, d), g);
     const float other = lobe.kappa > 0 ? float(fan_.count - byPhase_) * lobe.density(d) : 0;
-    fanWeight_[size_t(i)] = phase / (float(byPhase_) * phase + other);
+    fan_.from[size_t(i)] = position_;
+    fan_.first[size_t(i)] = d;
+    fan_.before[size_t(i)] = 0;
+    fan_.weight[size_t(i)] = phase / (float(byPhase_) * phase + other);
   }
-  traceInside(*world_.rays, object_, position_, fan_);
+  traceInside(*world_.rays, object_, fan_);
 }
 
-/// Splats the flux that leaves along each ray of the fan, one of `expected` fans.
+/// Splats what leaves along the rays of one of `expected` fans, straight away and after up to kFollowed
+/// mirrorings.
 void WalkPhotons::splatFan(float expected, float reach) {
+  if (learn_) {
+    ++sources_;
+    auto& cell = learn_->cells[WalkGuideSamples::cellOf(position_)];
+    cell.count += 1 / expected;
+    cell.reaches += reach / expected;
+  }
+  if (shells_ != 1) return;
+  splatExits(fan_, expected, reach);
+  RayFan mirrored;
+  for (int i = 0; i < kFollowed; ++i) {
+    mirrored = followed(i == 0 ? fan_ : mirrored);
+    if (mirrored.count == 0) return;
+    traceInside(*world_.rays, object_, mirrored);
+    splatExits(mirrored, expected, reach);
+  }
+}
+
+/// The rays of a fan after their mirroring at the surface; those that carry little are followed by chance.
+RayFan WalkPhotons::followed(const RayFan& fan) {
+  RayFan next;
+  for (size_t i = 0; i < size_t(fan.count); ++i) {
+    const RayHit& hit = fan.hit[i];
+    const float cosI = glm::dot(fan.direction[i], hit.normal);
+    if (hit.object != object_ || cosI <= 0) continue;
+    const float R = transport::fresnel(std::fmin(cosI, 1.0f), 1 / medium().eta).reflectance;
+    const float length = fan.before[i] + hit.distance;
+    const float carried = fan.weight[i] * R * std::exp(-leastExtinction() * length);
+    const float chance = std::fmin(1.0f, kFollowChance * carried);
+    if (rng_.uniform() >= chance) continue;
+    const auto n = size_t(next.count++);
+    next.direction[n] = transport::mirrored(fan.direction[i], hit.normal);
+    next.from[n] = offPoint(hit, next.direction[n]);
+    next.first[n] = fan.first[i];
+    next.before[n] = length;
+    next.weight[n] = fan.weight[i] * R / chance;
+  }
+  return next;
+}
+
+void WalkPhotons::splatExits(const RayFan& fan, float expected, float reach) {
   SightFan sight;
-  std::array<int, RayFan::kMost> ray;
+  std::array<size_t, RayFan::kMost> ray;
   std::array<WalkLens::Seen, RayFan::kMost> seen;
-  for (int i = 0; i < fan_.count && shells_ == 1; ++i) {
-    const RayHit& hit = fan_.hit[size_t(i)];
-    if (hit.object != object_) continue;
-    const float cosI = glm::dot(fan_.direction[size_t(i)], hit.normal);
-    if (cosI <= 0 || transport::fresnel(std::fmin(cosI, 1.0f), 1 / medium().eta).reflectance >= 1) continue;
+  std::array<float, RayFan::kMost> leaving;
+  for (size_t i = 0; i < size_t(fan.count); ++i) {
+    const RayHit& hit = fan.hit[i];
+    const float cosI = glm::dot(fan.direction[i], hit.normal);
+    if (hit.object != object_ || cosI <= 0) continue;
+    const float T = 1 - transport::fresnel(std::fmin(cosI, 1.0f), 1 / medium().eta).reflectance;
+    if (T <= 0) continue;
     const WalkLens::Seen s = world_.lens->see(hit.position);
     if (s.pixel < 0 || glm::dot(s.direction, hit.normal) <= 0) continue;
     const auto n = size_t(sight.count++);
     ray[n] = i;
     seen[n] = s;
+    leaving[n] = T * fan.weight[i];
     sight.from[n] = offPoint(hit, s.direction);
     sight.direction[n] = s.direction;
     sight.distance[n] = s.distance;
   }
   traceSight(*world_.rays, sight);
-  WalkGuideSamples::Cell* learn = learn_ ? &learn_->cells[WalkGuideSamples::cellOf(position_)] : nullptr;
   const float each = 1 / expected;
-  ++sources_;
   for (size_t n = 0; n < size_t(sight.count); ++n) {
     if (sight.blocked[n]) continue;
-    const auto i = size_t(ray[n]);
-    const RayHit& hit = fan_.hit[i];
-    const float cosI = std::fmin(glm::dot(fan_.direction[i], hit.normal), 1.0f);
-    const float T = 1 - transport::fresnel(cosI, 1 / medium().eta).reflectance;
-    const glm::vec3 flux = weight_.passing(medium(), hit.distance) * (T * fanWeight_[i]);
-    const float value = splat(hit, seen[n], flux * each) * expected;
-    if (!learn) continue;
-    splats_.push_back({seen[n].pixel, sources_, value * each, each});
-    learn->squares += value * value / (reach * reach) * each;
-    learn->light += value * each;
-    learn->splats += 1;
-    learn->towards += fan_.direction[i] * (value * each);
+    const RayHit& hit = fan.hit[ray[n]];
+    const glm::vec3 flux = weight_.passing(medium(), fan.before[ray[n]] + hit.distance) * leaving[n];
+    const float value = splat(hit, seen[n], flux * each);
+    if (learn_) learnSplat(seen[n].pixel, fan.first[ray[n]], value, each, reach);
   }
-  if (!learn) return;
-  learn->count += each;
-  learn->reaches += reach * each;
+}
+
+/// `value` is what was splatted: 1 / expected, `each`, of what the fan's ray stands for.
+void WalkPhotons::learnSplat(int64_t pixel, const glm::vec3& direction, float value, float each,
+                             float reach) {
+  splats_.push_back({pixel, sources_, value, each});
+  auto& cell = learn_->cells[WalkGuideSamples::cellOf(position_)];
+  cell.squares += value * value / (reach * reach * each);
+  cell.light += value;
+  cell.splats += 1;
+  cell.towards += direction * value;
 }
 
 /// Adds a flux that leaves at a visible point; returns the radiance it added (mean of RGB).
@@ -299,7 +347,7 @@ void WalkPhotons::meet(const RayHit& hit) {
   if (cosI > 0 && shells_ == 1) return leave(hit, std::fmin(cosI, 1.0f));
   // A shell of the same object inside this one: still its medium.
   shells_ += cosI > 0 ? -1 : 1;
-  straight_ = false;
+  mirrorings_ = kUnaccounted;
   position_ = offPoint(hit, direction_);
   clear_ = 0;
 }
@@ -309,10 +357,10 @@ void WalkPhotons::leave(const RayHit& hit, float cosI) {
   const float eta = 1 / medium().eta;
   const transport::Boundary boundary = transport::fresnel(cosI, eta);
   const float T = 1 - boundary.reflectance;
-  if (!straight_ && T > 0 && order_ >= firstOrder()) splatIfSeen(hit, weight_.flux() * T);
-  straight_ = false;
+  if (mirrorings_ > kFollowed && T > 0 && order_ >= firstOrder()) splatIfSeen(hit, weight_.flux() * T);
   if (rng_.uniform() < boundary.reflectance) {
     direction_ = transport::mirrored(direction_, hit.normal);
+    mirrorings_ = std::min(mirrorings_ + 1, kUnaccounted);
   } else {
     direction_ = transport::refracted(direction_, -hit.normal, eta, cosI, boundary.cosT);
     object_ = -1;

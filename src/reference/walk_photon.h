@@ -66,6 +66,9 @@ class WalkPhotons {
   void goOn();
   void openFan();
   void splatFan(float expected, float reach);
+  RayFan followed(const RayFan& fan);
+  void splatExits(const RayFan& fan, float expected, float reach);
+  void learnSplat(int64_t pixel, const glm::vec3& direction, float value, float each, float reach);
   float splat(const RayHit& hit, const WalkLens::Seen& seen, const glm::vec3& flux);
   void splatIfSeen(const RayHit& hit, const glm::vec3& flux);
   void learnPhoton(const WalkEmission::Start& start, float cost);
@@ -87,17 +90,15 @@ class WalkPhotons {
   transport::Rng rng_;
   WalkTally tally_;
   RayFan fan_;
-  std::array<float, RayFan::kMost>
-      fanWeight_;                ///< of each ray: phase function over density, all rays together
   int byPhase_ = RayFan::kMost;  ///< the first rays of the fan, drawn by the phase function
 
   transport::PathWeight weight_;
   glm::vec3 position_{0}, direction_{0};
-  int object_ = -1;        ///< whose medium the photon is in; -1 outside
-  int shells_ = 1;         ///< how many nested shells of that object it is in
-  int order_ = 0;          ///< collisions so far
-  int ahead_ = -1;         ///< entry of fan_ that the photon flies along; -1 none
-  bool straight_ = false;  ///< nothing met since the last collision: the fan accounts for the exit
+  int object_ = -1;     ///< whose medium the photon is in; -1 outside
+  int shells_ = 1;      ///< how many nested shells of that object it is in
+  int order_ = 0;       ///< collisions so far
+  int ahead_ = -1;      ///< entry of fan_ that the photon flies along; -1 none
+  int mirrorings_ = 0;  ///< since the last collision: while they are few, its fans account for the exit
   bool alive_ = false;
   float clear_ = -1;  ///< distance known to be clear about the position; below 0 unknown
   /// Splats of this photon, kept only while learning.
