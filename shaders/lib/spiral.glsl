@@ -1,5 +1,5 @@
 // The golden-angle spiral of the matched sampler: radii that follow the profile's reach, azimuths that fill a circle about
-// another centre than the spiral's. Twin: technique/multiple/spiral.h; derivation in docs/physics.md.
+// another centre than the spiral's. Twins: tests/parity; the azimuths' table: technique/multiple/spiral.h.
 
 // Share of the radial importance inside radius r (the receiver's depth under the lit surface included): r / (r + s).
 float radialShare(float r, float scale) { return r / (r + scale); }

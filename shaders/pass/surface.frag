@@ -19,6 +19,8 @@ float visibility(LightView view, Receiver r, float cosI) {
   float texel = 2.0 * view.halfWidth * mix(1.0, projectToMap(view, r.position).z, view.perspective) / size.x;
   float slope = sqrt(max(0.0, 1.0 - cosI * cosI));
   vec3 m = projectToMap(view, r.position + r.normal * (texel * (0.5 + 2.5 * slope)));
+  // Outside of the window (a point light close to a wide opaque object) nothing is known to block the light.
+  if (m.z <= 0.0 || m.x < 0.0 || m.y < 0.0 || m.x > 1.0 || m.y > 1.0) return 1.0;
   vec2 t = m.xy * size - 0.5;
   vec2 f = fract(t);
   ivec2 first = ivec2(floor(t)) - 1;

@@ -92,7 +92,7 @@ void validate(const RenderSettings& settings) {
            fmt::format("{}x{}", settings.width, settings.height));
   if (settings.mapSize < 128 || settings.mapSize > 4096)
     refuse("map", "a size from 128 to 4096 texels", fmt::format("{}", settings.mapSize));
-  requireRange(settings.multipleSamples, 8, 128, "samples");
+  requireRange(settings.multipleSamples, 8, 128, "multiple samples");
   requireRange(settings.singleSamples, 1, 256, "single samples");
   requireRange(settings.samples, 1e-3, 1e9, "samples");
   requireRange(settings.tolerance, 1e-5, 1, "tolerance");

@@ -13,8 +13,9 @@ namespace lychnite {
 /// upload.
 class MeshCache {
  public:
-  /// Uploads what is new and lets go of what the frame no longer uses.
-  void update(const Frame& frame);
+  /// Uploads what is new, lets go of what the frame no longer uses, and numbers the frame's meshes for the caches' keys
+  /// (an address can be used again for another mesh).
+  void update(Frame& frame);
   const gpu::VertexArray& get(const FrameObject& object) const {
     return entries_.at(object.source->mesh.get()).vertices;
   }
@@ -23,8 +24,10 @@ class MeshCache {
   struct Entry {
     std::shared_ptr<const Mesh> mesh;  // keeps the address from being used again
     gpu::VertexArray vertices;
+    uint64_t number;
   };
   std::map<const Mesh*, Entry> entries_;
+  uint64_t last_ = 0;
 };
 
 }  // namespace lychnite

@@ -10,8 +10,7 @@ namespace {
 Key keyOf(const Frame& frame) {
   Key key;
   key.add(frame.camera.width).add(frame.camera.height).add(frame.toClip).add(frame.camera.position);
-  for (const FrameObject& object : frame.objects)
-    key.add(double(reinterpret_cast<uintptr_t>(object.source->mesh.get()))).add(object.toWorld);
+  for (const FrameObject& object : frame.objects) key.add(double(object.mesh)).add(object.toWorld);
   return key;
 }
 

@@ -29,8 +29,7 @@ Key keyOf(const LightView& view, const Frame& frame, size_t object, const LightM
   Key key = view.key();
   key.add(double(object)).add(needs.size).add(needs.cosine).add(needs.fiveChannels).add(needs.moments);
   key.add(needs.farDepth).add(needs.moments ? frame.objects[object].medium.eta : 0);
-  for (const FrameObject& each : frame.objects)
-    key.add(double(reinterpret_cast<uintptr_t>(each.source->mesh.get()))).add(each.toWorld);
+  for (const FrameObject& each : frame.objects) key.add(double(each.mesh)).add(each.toWorld);
   return key;
 }
 

@@ -37,6 +37,16 @@ void fitParallel(LightView& view, const ParallelLight& light, const Frame& frame
   view.farDepth = centreDepth + target.radius * kMargin;
 }
 
+/// Mean direction from the light to the vertices: a better axis than the centre's for what is close and wide.
+glm::dvec3 meanDirection(const glm::dvec3& from, const FrameObject& object) {
+  glm::dvec3 sum(0);
+  for (const glm::vec3& p : object.source->mesh->positions) {
+    const glm::dvec3 d = glm::dvec3(object.toWorld * glm::dvec4(p, 1)) - from;
+    if (const double length = glm::length(d); length > 0) sum += d / length;
+  }
+  return glm::length(sum) > 1e-9 ? glm::normalize(sum) : glm::dvec3(0, -1, 0);
+}
+
 /// Largest tangent between the axis and a vertex; infinite for one beside or behind the light.
 double widestTangent(const LightView& view, const FrameObject& object) {
   double widest = 0;
@@ -57,19 +67,24 @@ void fitPoint(LightView& view, const PointLight& light, const Frame& frame, size
   view.perspective = true;
   view.origin = light.position;
   view.power = light.intensity;
-  view.forward = distance > 0 ? (sphere.centre - light.position) / distance : glm::dvec3(0, -1, 0);
-  completeAxes(view);
   const double sine = distance > 0 ? sphere.radius / distance : INFINITY;
   // Up to 60 degrees around the sphere; nearer, what the object itself takes up.
-  const double tangent =
-      sine < 0.5 ? sine / std::sqrt(1 - sine * sine) : widestTangent(view, frame.objects[target]);
-  if (!(tangent < 6)) {
-    throw Error(
-        {.where = fmt::format("light {}", lightIndex + 1),
-         .expected = "a point light that sees the whole object within 160 degrees",
-         .found = fmt::format("one {:.3g} object sizes from the centre of object {}", distance, target + 1),
-         .todo = "move it away, or render with --method walk"},
-        Error::Kind::kUsage);
+  const bool near = sine > 0.5;
+  view.forward = near ? meanDirection(light.position, frame.objects[target])
+                      : (sphere.centre - light.position) / distance;
+  completeAxes(view);
+  double tangent = near ? widestTangent(view, frame.objects[target]) : sine / std::sqrt(1 - sine * sine);
+  constexpr double kWidest = 6;  // 160 degrees; beyond, the texels in the middle are too few
+  if (!(tangent < kWidest)) {
+    // An opaque object only loses shadows at its far rim; a translucent one would lose light.
+    if (frame.objects[target].translucent)
+      throw Error(
+          {.where = fmt::format("light {}", lightIndex + 1),
+           .expected = "a point light that sees the whole object within 160 degrees",
+           .found = fmt::format("one {:.3g} object sizes from the centre of object {}", distance, target + 1),
+           .todo = "move it away, or render with --method walk"},
+          Error::Kind::kUsage);
+    tangent = kWidest;
   }
   view.halfWidth = tangent * kMargin;
   view.farDepth = distance + sphere.radius * kMargin;
