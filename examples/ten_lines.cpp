@@ -1,0 +1,16 @@
+// The README's ten lines.
+#include "lychnite/image/io.h"
+#include "lychnite/optics/materials.h"
+#include "lychnite/scene/scene_file.h"
+#include "lychnite/technique/renderer.h"
+
+int main() {
+  using namespace lychnite;
+  Scene scene;
+  scene.objects.push_back(loadObject("figurine"));  // or a mesh file
+  scene.objects[0].size = 20;                       // mm, the longest side
+  scene.objects[0].material.medium = findMaterial("marble", "material").coefficients;
+  scene.lights.push_back(ParallelLight{.azimuth = 150, .elevation = 30});  // from behind
+  Renderer renderer;
+  writePng(renderer.render(scene, RenderSettings{}), "marble.png");
+}
