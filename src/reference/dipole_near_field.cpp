@@ -15,9 +15,9 @@ namespace lychnite {
 namespace {
 
 constexpr int kRings = 320;
-constexpr int kPilotProbes = 16;
-constexpr int kMostProbes = 1024;
-constexpr size_t kNeighbours = 4;
+constexpr int kPilotProbes = 32;
+constexpr int kMostProbes = 2048;
+constexpr size_t kNeighbours = 6;
 
 double shortestCore(const Profile& profile, double otherwise) {
   double shortest = otherwise;

@@ -15,7 +15,7 @@ namespace {
 constexpr double kSpacing = 0.125;  ///< between samples, in mean free paths
 constexpr size_t kFewest = 64 * 1024, kMost = 4 * 1024 * 1024;
 constexpr size_t kMostEach = 2048, kMostOfFew = 128 * 1024;  ///< for each receiver, and for few receivers
-constexpr double kNearReach = 8;                             ///< radius of the near field, in spacings
+constexpr double kNearReach = 12;                            ///< radius of the near field, in spacings
 constexpr float kSolidAngle =
     0.05f;                     ///< largest of a node that stands for its samples, as seen from a receiver
 constexpr size_t kGroup = 32;  ///< receivers that share a traversal
