@@ -75,9 +75,9 @@ int materials(bool json) {
              "transport length (mm)", "diffuse reflectance", "eta");
   for (const NamedCoefficients& material : materialLibrary()) {
     const Coefficients& m = material.coefficients;
-    fmt::print("{:11}{}{}{}{}{:>5}\n", material.name, triple(m.mean_free_path(), "{:8.3f}"),
-               triple(m.albedo(), "{:8.4f}"), triple(1.0 / m.sigma_tr(), "{:8.2f}"),
-               triple(makeDipole(m)->P(0), "{:7.3f}"), m.eta);
+    fmt::print("{:11}{}{}{}{}{:>5}\n", material.name, triple(m.mean_free_path(), "{:>8.3f}"),
+               triple(m.albedo(), "{:>8.4f}"), triple(1.0 / m.sigma_tr(), "{:>8.2f}"),
+               triple(makeDipole(m)->P(0), "{:>7.3f}"), m.eta);
   }
   return 0;
 }

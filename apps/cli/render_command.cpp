@@ -177,17 +177,27 @@ bool isExr(const fs::path& path) {
   return path.extension() == ".exr";
 }
 
-void checkOutput(const fs::path& path) {
-  if (path.extension() != ".png" && path.extension() != ".exr")
-    usage("-o", "a file ending in .png or .exr", fmt::format("'{}'", path.string()));
+/// Refuses a path that nothing can be written to, so that this is said before the work and not after it.
+void checkWritable(const fs::path& path) {
   std::error_code code;
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  // Said before the work, not after it.
   if (!fs::is_directory(folder, code))
     throw Error({.where = path.string(),
                  .expected = "",
                  .found = fmt::format("there is no folder '{}'", folder.string()),
                  .todo = "make it first"});
+  if (fs::is_directory(path, code))
+    throw Error(
+        {.where = path.string(), .expected = "a file name to write to", .found = "a folder", .todo = ""});
+}
+
+void checkOutputs(const Flags& flags) {
+  const fs::path path = flags.output;
+  if (path.extension() != ".png" && path.extension() != ".exr")
+    usage("-o", "a file ending in .png or .exr", fmt::format("'{}'", path.string()));
+  checkWritable(path);
+  for (const std::string& other : {flags.stats, flags.saveScene})
+    if (!other.empty()) checkWritable(other);
 }
 
 void write(Image& image, const fs::path& path, const Flags& flags) {
@@ -205,7 +215,7 @@ int render(const Flags& flags) {
   const RenderSettings settings = settingsFromFlags(flags);
   const Sweep sweep = sweepFromFlags(flags);
   const fs::path output = flags.output;
-  checkOutput(output);
+  checkOutputs(flags);
   parseToneCurve(flags.toneMap, "--tone-map");
   parseNumber(flags.exposure, "--exposure");
   const Scene scene = sceneFromFlags(flags, log);
@@ -256,12 +266,14 @@ void addSceneFlags(CLI::App& command, Flags& flags) {
 }
 
 void addMethodFlags(CLI::App& command, Flags& flags) {
-  command.add_option("--method", flags.method, "matched (default), adaptive, fixed, dipole, hierarchical or walk");
+  command.add_option("--method", flags.method,
+                     "matched (default), adaptive, fixed, dipole, hierarchical or walk");
   command.add_option("--profile", flags.profile,
                      "dipole (default), better-dipole, normalized-diffusion or tabulated");
   command.add_option("--components", flags.components, "any of multiple,single,surface (default all)");
   command.add_option("--samples", flags.samples,
-                     "matched: samples a pixel, 8 to 128 (32); walk: photons per pixel (16); adaptive, fixed: single-scattering samples (8)");
+                     "matched: samples a pixel, 8 to 128 (32); walk: photons per pixel (16); adaptive, "
+                     "fixed: single-scattering samples (8)");
   command.add_option("--single-samples", flags.singleSamples,
                      "single-scattering samples along the refracted ray (8)");
   command.add_option("--map", flags.map, "light-space map size, 128 to 4096 (512)");

@@ -1,0 +1,131 @@
+// Model files that are damaged, hostile or no models: one line, status 1, nothing written.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "e2e/runner.h"
+
+namespace lychnite::e2e {
+namespace {
+
+const char* const kTriangles = "element face 4\nproperty list uchar int vertex_indices\nend_header\n";
+const char* const kFaces = "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+
+/// A text PLY of four vertices, the given last one, and the faces of a tetrahedron.
+std::string tetrahedron(const std::string& last, const std::string& faces = kFaces) {
+  return std::string("ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n") +
+         "property float z\n" + kTriangles + "0 0 0\n1 0 0\n0 1 0\n" + last + "\n" + faces;
+}
+
+std::string binaryPly(const std::string& vertices, const std::string& body) {
+  return "ply\nformat binary_little_endian 1.0\nelement vertex " + vertices +
+         "\nproperty float x\nproperty float y\nproperty float z\n" + kTriangles + body;
+}
+
+struct BadModel {
+  const char* name;
+  std::string text;
+  const char* words;  ///< must be in the line, beside the file's name
+};
+
+void PrintTo(const BadModel& model, std::ostream* out) {
+  *out << model.name;
+}
+
+class BadModelTest : public testing::TestWithParam<BadModel> {};
+
+TEST_P(BadModelTest, IsRefusedInOneLine) {
+  const Scratch scratch;
+  scratch.write("model.ply", GetParam().text);
+  const Result result = scratch.run(renderArguments("model.ply", {"--size", "10mm", "-o", "out.png"}));
+  expectOneLine(result, 1, "model.ply");
+  EXPECT_NE(result.err.find(GetParam().words), std::string::npos) << result.err;
+  EXPECT_EQ(scratch.names(), std::set<std::string>{"model.ply"});
+}
+
+std::vector<BadModel> badModels() {
+  return {
+      {"Empty", "", ""},
+      {"NotAPly", "this is no mesh\n", ""},
+      {"HeaderOnly", binaryPly("4", ""), ""},
+      {"TruncatedBinary", binaryPly("4", std::string(30, '\0')), ""},
+      {"TruncatedText", tetrahedron("0 0 1", "3 0 2 1\n3 0 1"), ""},
+      {"FourBillionVertices", binaryPly("4000000000", std::string(48, '\0')), ""},
+      {"NegativeVertices", binaryPly("-4", std::string(48, '\0')), ""},
+      {"NanCoordinates", tetrahedron("0 0 nan"), ""},
+      {"InfiniteCoordinates", tetrahedron("0 0 inf"), ""},
+      {"FacePastTheVertices", tetrahedron("0 0 1", "3 0 2 1\n3 0 1 3\n3 1 2 4\n3 0 3 2\n"), ""},
+      {"NegativeFaceIndex", tetrahedron("0 0 1", "3 0 2 1\n3 0 1 3\n3 1 2 -1\n3 0 3 2\n"), ""},
+      {"ZeroSize",
+       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+       "element face 1\nproperty list uchar int vertex_indices\nend_header\n1 1 1\n1 1 1\n1 1 1\n3 0 1 2\n",
+       ""},
+      {"NoTriangles",
+       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+       "element face 0\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n",
+       ""}};
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, BadModelTest, testing::ValuesIn(badModels()),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST(BadModelPath, MissingFile) {
+  const Scratch scratch;
+  const Result result = scratch.run(renderArguments("none.ply", {"--size", "10mm", "-o", "out.png"}));
+  expectOneLine(result, 1, "none.ply");
+  EXPECT_TRUE(scratch.names().empty());
+}
+
+TEST(BadModelPath, Folder) {
+  const Scratch scratch;
+  std::filesystem::create_directory(scratch / "folder.ply");
+  const Result result = scratch.run(renderArguments("folder.ply", {"--size", "10mm", "-o", "out.png"}));
+  expectOneLine(result, 1, "folder.ply");
+  EXPECT_EQ(scratch.names(), std::set<std::string>{"folder.ply"});
+}
+
+TEST(BadModelPath, UnknownBuiltinSuggestsTheNearest) {
+  const Scratch scratch;
+  const Result result = scratch.run(renderArguments("sphare", {"--size", "10mm", "-o", "out.png"}));
+  expectOneLine(result, 1, "sphere");
+  EXPECT_TRUE(scratch.names().empty());
+}
+
+TEST(OddModel, FlatMeshRenders) {
+  const Scratch scratch;
+  scratch.write(
+      "flat.ply",
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
+      "0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n");
+  const Result result = scratch.run(renderArguments("flat.ply", {"--size", "10mm", "-o", "out.png"}));
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(scratch.names(), (std::set<std::string>{"flat.ply", "out.png"}));
+}
+
+TEST(BadScene, TypoNamesFileAndLine) {
+  const Scratch scratch;
+  ASSERT_EQ(scratch.run(renderArguments("stone", {"--size", "10mm", "-o", "a.exr", "--save-scene", "a.toml"}))
+                .status,
+            0);
+  std::string text = scratch.read("a.toml");
+  const auto at = text.find("size");
+  ASSERT_NE(at, std::string::npos);
+  const auto line = 1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(at), '\n');
+  scratch.write("bad.toml", text.replace(at, 4, "sice"));
+  const Result result = scratch.run(renderArguments("bad.toml", {"-o", "out.png"}));
+  expectOneLine(result, 1, "bad.toml:" + std::to_string(line));
+  EXPECT_NE(result.err.find("sice"), std::string::npos) << result.err;
+  EXPECT_EQ(scratch.names(), (std::set<std::string>{"a.exr", "a.toml", "bad.toml"}));
+}
+
+TEST(BadScene, SyntaxErrorNamesFileAndLine) {
+  const Scratch scratch;
+  scratch.write("bad.toml", "[camera]\nazimuth = = 3\n");
+  const Result result = scratch.run(renderArguments("bad.toml", {"-o", "out.png"}));
+  expectOneLine(result, 1, "bad.toml:2");
+  EXPECT_EQ(scratch.names(), std::set<std::string>{"bad.toml"});
+}
+
+}  // namespace
+}  // namespace lychnite::e2e
