@@ -57,6 +57,8 @@ int usageError(const CLI::App& app, const CLI::ParseError& error, int argc, char
   std::string message = error.what();
   for (char& c : message)
     if (c == '\n') c = ' ';
+  if (argc > 1 && argv[1][0] != '-' && app.get_subcommands().empty())
+    message = fmt::format("there is no command '{}'", argv[1]);
   const std::string nearest = suggestion(app, argc, argv);
   const bool unknown =
       dynamic_cast<const CLI::ExtrasError*>(&error) || dynamic_cast<const CLI::RequiredError*>(&error);
@@ -104,7 +106,7 @@ int main(int argc, char** argv) {
     return cli::statusOf(error.kind());
   } catch (const Interrupted&) {
     cli::finishProgress();
-    fmt::print(stderr, "lychnite: interrupted; nothing was written\n");
+    fmt::print(stderr, "lychnite: interrupted; the unfinished picture was not kept\n");
     return 130;
   } catch (const std::bad_alloc&) {
     cli::finishProgress();

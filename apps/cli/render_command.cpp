@@ -210,11 +210,20 @@ void write(Image& image, const fs::path& path, const Flags& flags) {
             .alpha = flags.transparent});
 }
 
+/// The part that frame `index` of `frames` is of the whole, reported to `whole`.
+Progress frameProgress(const Progress& whole, int index, int frames) {
+  if (frames == 1) return whole;
+  return Progress([=](const Progress::Update& update) {
+    return whole.update({.what = "frames",
+                         .fraction = (index + update.fraction) / frames,
+                         .detail = fmt::format("{}/{}", index + 1, frames)});
+  });
+}
+
 int render(const Flags& flags) {
   const LogSink log = terminalLog(flags.verbose);
   const RenderSettings settings = settingsFromFlags(flags);
   const Sweep sweep = sweepFromFlags(flags);
-  const fs::path output = flags.output;
   checkOutputs(flags);
   parseToneCurve(flags.toneMap, "--tone-map");
   parseNumber(flags.exposure, "--exposure");
@@ -224,13 +233,13 @@ int render(const Flags& flags) {
   const Progress progress = terminalProgress();
   const auto start = std::chrono::steady_clock::now();
   for (int i = 0; i < sweep.frames; ++i) {
-    if (sweep.frames > 1)
-      progress.check({.what = "frames",
-                      .fraction = double(i) / sweep.frames,
-                      .detail = fmt::format("{}/{}", i + 1, sweep.frames)});
-    Image image = maker.render(sceneAt(scene, sweep, i), settings, sweep.frames > 1 ? Progress() : progress);
+    const Progress frame = frameProgress(progress, i, sweep.frames);
+    frame.check({.what = "frames"});
+    Image image = maker.render(sceneAt(scene, sweep, i), settings, frame);
     finishProgress();
-    write(image, sweep.frames > 1 ? numbered(output, i, sweep.frames) : output, flags);
+    const fs::path output =
+        sweep.frames > 1 ? numbered(flags.output, i, sweep.frames) : fs::path(flags.output);
+    write(image, output, flags);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (!flags.stats.empty())
       writeTextAtomically(flags.stats, statsJson(image, settings, maker.stats(), seconds));
@@ -280,7 +289,7 @@ void addMethodFlags(CLI::App& command, Flags& flags) {
   command.add_option("--tolerance", flags.tolerance, "dipole: relative error to refine to (0.5%)");
   command.add_option("--time", flags.time, "walk: stop after this time (60s, 2min)");
   command.add_option("--noise", flags.noise, "walk: stop at this relative noise (2%)");
-  command.add_option("--seed", flags.seed, "of the random numbers (1)");
+  command.add_option("--seed", flags.seed, "of the random numbers (1)")->check(CLI::NonNegativeNumber);
   command.add_option("--threads", flags.threads, "CPU threads, 0 = all cores");
   command.add_option("--device", flags.device, "auto, gpu, cpu or a number from `lychnite devices`");
   command.add_flag("--debug", flags.debug, "OpenGL debug context; its errors are failures");

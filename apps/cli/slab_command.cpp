@@ -144,7 +144,7 @@ void addSlab(CLI::App& app, Action& action) {
   command->add_option("--radial-bins", flags->radialBins, "rings of that table (200)")
       ->check(CLI::Range(1, 1000000));
   command->add_option("--radial-step", flags->radialStep, "width of a ring, with a unit");
-  command->add_option("--seed", flags->seed, "of the random numbers (1)");
+  command->add_option("--seed", flags->seed, "of the random numbers (1)")->check(CLI::NonNegativeNumber);
   command->add_option("--threads", flags->threads, "0 = all cores")->check(CLI::Range(0, 1024));
   command->add_flag("--json", flags->json, "machine-readable");
   command->callback([flags, &action] { action = [flags] { return slab(*flags); }; });

@@ -84,6 +84,21 @@ TEST(BadModelPath, Folder) {
   EXPECT_EQ(scratch.names(), std::set<std::string>{"folder.ply"});
 }
 
+TEST(BadModelPath, UnknownFormat) {
+  const Scratch scratch;
+  scratch.write("mesh.xyz", "0 0 0\n");
+  const Result result = scratch.run(renderArguments("mesh.xyz", {"--size", "10mm", "-o", "out.png"}));
+  expectOneLine(result, 1, "mesh.xyz");
+  EXPECT_EQ(scratch.names(), std::set<std::string>{"mesh.xyz"});
+}
+
+TEST(BadModelPath, InfoRefusesThemToo) {
+  const Scratch scratch;
+  scratch.write("huge.ply", binaryPly("4000000000", std::string(48, '\0')));
+  expectOneLine(scratch.run({"info", "huge.ply", "--json"}), 1, "4000000000");
+  expectOneLine(scratch.run({"info", "none.ply"}), 1, "none.ply");
+}
+
 TEST(BadModelPath, UnknownBuiltinSuggestsTheNearest) {
   const Scratch scratch;
   const Result result = scratch.run(renderArguments("sphare", {"--size", "10mm", "-o", "out.png"}));
@@ -119,12 +134,43 @@ TEST(BadScene, TypoNamesFileAndLine) {
   EXPECT_EQ(scratch.names(), (std::set<std::string>{"a.exr", "a.toml", "bad.toml"}));
 }
 
-TEST(BadScene, SyntaxErrorNamesFileAndLine) {
+struct BadSceneText {
+  const char* name;
+  std::string text;
+  const char* words;
+};
+
+void PrintTo(const BadSceneText& scene, std::ostream* out) {
+  *out << scene.name;
+}
+
+class BadSceneTest : public testing::TestWithParam<BadSceneText> {};
+
+TEST_P(BadSceneTest, NamesFileAndLine) {
   const Scratch scratch;
-  scratch.write("bad.toml", "[camera]\nazimuth = = 3\n");
+  scratch.write("bad.toml", GetParam().text);
   const Result result = scratch.run(renderArguments("bad.toml", {"-o", "out.png"}));
-  expectOneLine(result, 1, "bad.toml:2");
+  expectOneLine(result, 1, GetParam().words);
   EXPECT_EQ(scratch.names(), std::set<std::string>{"bad.toml"});
+}
+
+std::vector<BadSceneText> badScenes() {
+  const std::string object = "[[object]]\nmodel = \"stone\"\nsize = \"20mm\"\n";
+  return {{"Syntax", "[camera]\nazimuth = = 3\n", "bad.toml:2"},
+          {"Typo", object + "materiel = \"marble\"\n", "did you mean 'material'?"},
+          {"SizeWithoutUnit", "[[object]]\nmodel = \"stone\"\nsize = 20\n", "bad.toml:3"},
+          {"NoObject", "background = 0.1\n", "[[object]]"},
+          {"UnknownLight", object + "[[light]]\ntype = \"sun\"\n", "bad.toml:5"},
+          {"MissingModel", "[[object]]\nmodel = \"none.ply\"\nsize = \"20mm\"\n", "none.ply"}};
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, BadSceneTest, testing::ValuesIn(badScenes()),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST(BadScene, MissingFile) {
+  const Scratch scratch;
+  expectOneLine(scratch.run(renderArguments("none.toml", {"-o", "out.png"})), 1, "none.toml");
+  EXPECT_TRUE(scratch.names().empty());
 }
 
 }  // namespace

@@ -35,20 +35,38 @@ TEST(Device, WithoutEglTheJudgesWork) {
   EXPECT_EQ(readImage(scratch / "out.exr").metadata.at("method"), "walk");
 }
 
-// Whenever the interrupt comes, the picture is there whole or not at all. The first wait may hit the program
-// while it starts, when the signal's default ends it with the same status.
+TEST(Device, WithoutShadersRealTimeMethodsSaySo) {
+  const Scratch scratch;
+  const Result result = scratch.run(renderArguments("stone", {"--size", "10mm", "-o", "out.png"}),
+                                    {{"LYCHNITE_SHADER_DIR", "/nonexistent"}});
+  expectOneLine(result, 3, "/nonexistent");
+  EXPECT_TRUE(scratch.names().empty());
+}
+
+// Whenever the interrupt comes, the picture is there whole or not at all: at once, and when there is
+// something to keep.
 TEST(Interrupt, LeavesAWholePictureOrNone) {
-  for (const double seconds : {0.3, 2.0}) {
+  for (const double seconds : {0.0, 1.5}) {
     const Scratch scratch;
     const Result result = scratch.runAndInterrupt(
         renderArguments("stone",
                         {"--size", "10mm", "--method", "walk", "--samples", "100000", "-o", "out.exr"}),
         seconds);
-    EXPECT_EQ(result.status, 130) << result.err;
+    expectOneLine(result, 130, "interrupted");
     if (scratch.names().empty()) continue;
     EXPECT_EQ(scratch.names(), std::set<std::string>{"out.exr"});
     EXPECT_EQ(readImage(scratch / "out.exr").width(), 64);
   }
+}
+
+TEST(Interrupt, StopsWithinAFrame) {
+  const Scratch scratch;
+  const Result result =
+      scratch.runAndInterrupt(renderArguments("stone", {"--size", "10mm", "--method", "walk", "--samples",
+                                                        "100000", "--frames", "3", "-o", "out.exr"}),
+                              0.5);
+  expectOneLine(result, 130, "interrupted");
+  for (const std::string& name : scratch.names()) EXPECT_EQ(name, "out_0001.exr");
 }
 
 }  // namespace

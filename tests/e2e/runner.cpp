@@ -50,6 +50,17 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
   return result;
 }
 
+/// True once process `pid` handles SIGINT itself or has ended.
+bool catchesInterrupts(int pid) {
+  std::ifstream file("/proc/" + std::to_string(pid) + "/status");
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("State:") && line.find('Z') != std::string::npos) return true;
+    if (line.starts_with("SigCgt:"))
+      return (std::stoull(line.substr(7), nullptr, 16) >> (SIGINT - 1) & 1) != 0;
+  }
+  return true;
+}
+
 }  // namespace
 
 Scratch::Scratch() {
@@ -112,6 +123,7 @@ Result Scratch::run(const std::vector<std::string>& arguments, const Environment
 
 Result Scratch::runAndInterrupt(const std::vector<std::string>& arguments, double seconds) const {
   const int pid = start(arguments, {});
+  while (!catchesInterrupts(pid)) std::this_thread::sleep_for(std::chrono::milliseconds(2));
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
   kill(pid, SIGINT);
   return finish(pid);

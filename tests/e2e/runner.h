@@ -37,7 +37,7 @@ class Scratch {
 
   /// Runs `lychnite` to its end.
   Result run(const std::vector<std::string>& arguments, const Environment& environment = {}) const;
-  /// Starts `lychnite`, sends SIGINT after `seconds`, waits for its end.
+  /// Starts `lychnite`, sends SIGINT `seconds` after it began to listen to it, waits for its end.
   Result runAndInterrupt(const std::vector<std::string>& arguments, double seconds) const;
 
  private:
