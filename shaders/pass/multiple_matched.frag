@@ -7,7 +7,7 @@
 #include "pass/receiver.glsl"
 
 uniform sampler2D moments;    // flux, flux z, flux z^2, flux z^3; z towards the light from centreDepth
-uniform sampler2D profile;    // lower row Rd, upper row P
+uniform sampler2D profile;    // rows from below: Rd, P, light sent no farther than r
 uniform float profileScale;
 uniform float centreDepth;
 uniform float boundRadius;    // of the object's bounding sphere, whose centre the axis passes
@@ -24,10 +24,13 @@ const float kDark = 1e-7;  // a texel with less flux is empty
 const int kExactCells = 16;
 
 vec3 profileRd(float r) {
-  return textureLod(profile, vec2(profileCoordinate(r, profileScale), 0.25), 0.0).xyz;
+  return textureLod(profile, vec2(profileCoordinate(r, profileScale), 0.5 / 3.0), 0.0).xyz;
 }
 vec3 profileP(float r) {
-  return textureLod(profile, vec2(profileCoordinate(r, profileScale), 0.75), 0.0).xyz;
+  return textureLod(profile, vec2(profileCoordinate(r, profileScale), 1.5 / 3.0), 0.0).xyz;
+}
+vec3 profileNear(float r) {
+  return textureLod(profile, vec2(profileCoordinate(r, profileScale), 2.5 / 3.0), 0.0).xyz;
 }
 
 // The receiver in the light's plane, scaled to its own depth.
@@ -38,6 +41,8 @@ struct Ground {
   float texel;
   float z;         // towards the light, of the receiver as the map sees it
   float depth;     // how far the lit surface lies above the receiver; 0 when the receiver is lit
+  float window;    // of what the map cannot resolve around the receiver: a texel on the slanted surface
+  float local;     // flux that enters at the receiver itself, per area of its surface
   float slope2;    // squared slope of the receiver's own surface where it is lit, else 0
 };
 
@@ -82,6 +87,8 @@ Ground groundOf(LightView view, Receiver r) {
   g.z += lit * above;
   g.slope2 = lit * tan2;
   g.depth = (1.0 - lit) * above;
+  g.window = g.texel * mix(1.0, sqrt(1.0 + tan2), lit);
+  g.local = lit * max(cosI, 0.0) * textureLod(moments, m.xy, 0.0).x;
   return g;
 }
 
@@ -93,19 +100,23 @@ struct Sum {
   vec3 faintest;      // smallest kernel among the outermost quarter
 };
 
-// Mean of the kernel over the ring of squared distances a2 to b2.
-vec3 kernelMean(float a2, float b2, bool exact) {
-  if (exact && b2 - a2 > 0.02 * b2) return (profileP(sqrt(a2)) - profileP(sqrt(b2))) / (3.141592653589793 * (b2 - a2));
-  return profileRd(sqrt(0.5 * (a2 + b2)));
+// Mean of the kernel over the ring of squared distances a2 to b2, less what is nearer than the window: that part the
+// receiver answers for itself.
+vec3 kernelMean(float a2, float b2, float window, bool exact) {
+  float middle = 0.5 * (a2 + b2);
+  float share = 1.0 - exp(-middle / (window * window));
+  if (exact && b2 - a2 > 0.02 * b2)
+    return (profileP(sqrt(a2)) - profileP(sqrt(b2))) * (share / (3.141592653589793 * (b2 - a2)));
+  return profileRd(sqrt(middle)) * share;
 }
 
 // Kernel of one cell whose flux sits at height `height` above the receiver at the cell's middle radius q.
-vec3 cellKernel(float a, float b, float q, float start, float height, bool exact) {
+vec3 cellKernel(float a, float b, float q, float start, float height, float window, bool exact) {
   float ha = start + (height - start) * a / q;
   float hb = start + (height - start) * b / q;
   float a2 = a * a + ha * ha;
   float b2 = b * b + hb * hb;
-  return kernelMean(min(a2, b2), max(a2, b2), exact);
+  return kernelMean(min(a2, b2), max(a2, b2), window, exact);
 }
 
 void addCell(inout Sum sum, Ground g, vec2 uv, float area, float a, float b, float q, int index) {
@@ -122,7 +133,7 @@ void addCell(inout Sum sum, Ground g, vec2 uv, float area, float a, float b, flo
   bool exact = index < kExactCells;
   vec3 f;
   if (variance <= 1e-9) {
-    f = cellKernel(a, b, q, g.depth, height, exact);
+    f = cellKernel(a, b, q, g.depth, height, g.window, exact);
   } else {
     // Two nodes with the flux's mean, variance and skewness.
     float third = m.z - 3.0 * m.x * m.y + 2.0 * m.x * m.x * m.x;
@@ -130,8 +141,8 @@ void addCell(inout Sum sum, Ground g, vec2 uv, float area, float a, float b, flo
     float skew = clamp(third / (variance * deviation), -20.0, 20.0);
     float root = sqrt(skew * skew + 4.0);
     float w = 0.5 * (skew + root) / root;
-    f = w * cellKernel(a, b, q, g.depth, height + 0.5 * deviation * (skew - root), exact) +
-        (1.0 - w) * cellKernel(a, b, q, g.depth, height + 0.5 * deviation * (skew + root), exact);
+    f = w * cellKernel(a, b, q, g.depth, height + 0.5 * deviation * (skew - root), g.window, exact) +
+        (1.0 - w) * cellKernel(a, b, q, g.depth, height + 0.5 * deviation * (skew + root), g.window, exact);
   }
   sum.radiosity += area * t.x * f;
   sum.weighted += area * area * t.x * f;
@@ -179,7 +190,7 @@ vec3 radiosity(LightView view, Receiver r) {
   float missed = total - sum.flux;
   float taper = max(0.0, 1.0 - pow(missed / max(1e-9, 0.4 * total), 2.0));
   vec3 beta = min(sum.weighted / max(1e-20, sum.weight), 1.5 * sum.faintest);
-  return max(vec3(0.0), sum.radiosity + beta * (taper * missed));
+  return max(vec3(0.0), sum.radiosity + beta * (taper * missed)) + profileNear(g.window) * g.local;
 }
 
 void main() {
