@@ -40,30 +40,32 @@ TEST_P(BadModelTest, IsRefusedInOneLine) {
   const Result result = scratch.run(renderArguments("model.ply", {"--size", "10mm", "-o", "out.png"}));
   expectOneLine(result, 1, "model.ply");
   EXPECT_NE(result.err.find(GetParam().words), std::string::npos) << result.err;
+  EXPECT_LT(result.peakBytes, size_t(200) << 20) << "allocates what the header claims";
   EXPECT_EQ(scratch.names(), std::set<std::string>{"model.ply"});
 }
 
 std::vector<BadModel> badModels() {
   return {
-      {"Empty", "", ""},
-      {"NotAPly", "this is no mesh\n", ""},
-      {"HeaderOnly", binaryPly("4", ""), ""},
-      {"TruncatedBinary", binaryPly("4", std::string(30, '\0')), ""},
-      {"TruncatedText", tetrahedron("0 0 1", "3 0 2 1\n3 0 1"), ""},
-      {"FourBillionVertices", binaryPly("4000000000", std::string(48, '\0')), ""},
-      {"NegativeVertices", binaryPly("-4", std::string(48, '\0')), ""},
-      {"NanCoordinates", tetrahedron("0 0 nan"), ""},
-      {"InfiniteCoordinates", tetrahedron("0 0 inf"), ""},
-      {"FacePastTheVertices", tetrahedron("0 0 1", "3 0 2 1\n3 0 1 3\n3 1 2 4\n3 0 3 2\n"), ""},
-      {"NegativeFaceIndex", tetrahedron("0 0 1", "3 0 2 1\n3 0 1 3\n3 1 2 -1\n3 0 3 2\n"), ""},
+      {"Empty", "", "an empty one"},
+      {"NotAPly", "this is no mesh\n", "first line \"ply\""},
+      {"HeaderOnly", binaryPly("4", ""), "truncated"},
+      {"TruncatedBinary", binaryPly("4", std::string(30, '\0')), "truncated"},
+      {"TruncatedText", tetrahedron("0 0 1", "3 0 2 1\n3 0 1"), "face 1"},
+      {"FourBillionVertices", binaryPly("4000000000", std::string(48, '\0')), "4000000000"},
+      {"NegativeVertices", binaryPly("-4", std::string(48, '\0')), "'-4'"},
+      {"NanCoordinates", tetrahedron("0 0 nan"), "vertex 3"},
+      {"InfiniteCoordinates", tetrahedron("0 0 inf"), "vertex 3"},
+      {"FacePastTheVertices", tetrahedron("0 0 1", "3 0 2 1\n3 0 1 3\n3 1 2 4\n3 0 3 2\n"),
+       "index 4 in face 2"},
+      {"NegativeFaceIndex", tetrahedron("0 0 1", "3 0 2 1\n3 0 1 3\n3 1 2 -1\n3 0 3 2\n"), "-1 in face 2"},
       {"ZeroSize",
        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
        "element face 1\nproperty list uchar int vertex_indices\nend_header\n1 1 1\n1 1 1\n1 1 1\n3 0 1 2\n",
-       ""},
+       "extent"},
       {"NoTriangles",
        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
        "element face 0\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n",
-       ""}};
+       "no face"}};
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, BadModelTest, testing::ValuesIn(badModels()),
@@ -82,6 +84,24 @@ TEST(BadModelPath, Folder) {
   const Result result = scratch.run(renderArguments("folder.ply", {"--size", "10mm", "-o", "out.png"}));
   expectOneLine(result, 1, "folder.ply");
   EXPECT_EQ(scratch.names(), std::set<std::string>{"folder.ply"});
+}
+
+TEST(BadModelPath, OtherFormatsCutShort) {
+  const std::pair<const char*, std::string> files[] = {
+      {"model.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"},
+      {"model.stl", std::string(80, '\0') + "\xff\xff\xff\xff" + std::string(10, '\0')},
+      {"model.off", "OFF\n4000000000 1 0\n"},
+      {"model.3ds", "MM\xff\xff\xff\xff"},
+      {"model.gltf", "{"},
+      {"model.glb", std::string("glTF\2\0\0\0", 8)}};
+  for (const auto& [name, text] : files) {
+    const Scratch scratch;
+    scratch.write(name, text);
+    const Result result = scratch.run(renderArguments(name, {"--size", "10mm", "-o", "out.png"}));
+    expectOneLine(result, 1, name);
+    EXPECT_LT(result.peakBytes, size_t(200) << 20) << name;
+    EXPECT_EQ(scratch.names(), std::set<std::string>{name});
+  }
 }
 
 TEST(BadModelPath, UnknownFormat) {

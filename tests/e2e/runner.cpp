@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -112,9 +113,12 @@ int Scratch::start(const std::vector<std::string>& arguments, const Environment&
 
 Result Scratch::finish(int pid) const {
   int status = 0;
-  if (waitpid(pid, &status, 0) != pid) throw std::runtime_error("cannot wait for the program");
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), contents(captured_ / "stdout"),
-          contents(captured_ / "stderr")};
+  rusage usage{};
+  if (wait4(pid, &status, 0, &usage) != pid) throw std::runtime_error("cannot wait for the program");
+  return {.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
+          .out = contents(captured_ / "stdout"),
+          .err = contents(captured_ / "stderr"),
+          .peakBytes = size_t(usage.ru_maxrss) * 1024};
 }
 
 Result Scratch::run(const std::vector<std::string>& arguments, const Environment& environment) const {

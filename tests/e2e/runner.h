@@ -15,6 +15,7 @@ namespace lychnite::e2e {
 struct Result {
   int status = -1;
   std::string out, err;
+  size_t peakBytes = 0;  ///< the most memory it had resident
 };
 
 /// Environment variables to set for one run; an empty value removes the variable.
