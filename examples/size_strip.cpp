@@ -7,7 +7,6 @@
 
 #include "lychnite/app/image_maker.h"
 #include "lychnite/base/error.h"
-#include "lychnite/base/units.h"
 #include "lychnite/image/io.h"
 #include "lychnite/image/montage.h"
 #include "lychnite/optics/materials.h"
@@ -22,11 +21,10 @@ constexpr std::array kSizes{5.0, 20.0, 100.0};  // mm
 Scene sceneOf(const Object& object) {
   Scene scene;
   scene.objects = {object};
-  scene.lights = {ParallelLight{.azimuth = -130, .elevation = 20, .irradiance = Rgb(5)},
-                  ParallelLight{.azimuth = 40, .elevation = 30, .irradiance = Rgb(0.8)}};
-  scene.camera = OrbitCamera{.azimuth = -25, .elevation = 8};
-  scene.background = Rgb(0.02);
-  scene.ambient = Rgb(0.05);
+  scene.lights = {ParallelLight{.azimuth = 140, .elevation = 30, .irradiance = Rgb(6)},
+                  ParallelLight{.azimuth = -50, .elevation = 35, .irradiance = Rgb(0.5)}};
+  scene.camera = OrbitCamera{.azimuth = 0, .elevation = 8};
+  scene.background = Rgb(0.01);
   return scene;
 }
 
@@ -60,7 +58,7 @@ void drawStrip(const std::string& path, const std::vector<std::string>& models) 
   for (size_t i = 0; i < pictures.size(); ++i)
     panels.push_back({.image = &pictures[i],
                       .label = nameOf(models[i / kSizes.size()]) + ", marble, " +
-                               formatLength(kSizes[i % kSizes.size()])});
+                               std::to_string(int(kSizes[i % kSizes.size()])) + " mm"});
   writePng(montage(panels, ToneMapping{.curve = ToneMapping::Curve::kFilmic, .exposure = 1}, kSizes.size()),
            path);
 }
