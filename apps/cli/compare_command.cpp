@@ -2,6 +2,7 @@
 
 #include "commands.h"
 #include "lychnite/app/report.h"
+#include "lychnite/base/error.h"
 #include "lychnite/base/units.h"
 #include "lychnite/image/io.h"
 #include "lychnite/image/metrics.h"
@@ -22,6 +23,12 @@ void printMetrics(const char* name, const Metrics& m) {
 
 int compareFiles(const Flags& flags) {
   const double exposure = parseNumber(flags.exposure, "--exposure");
+  if (!flags.heatmap.empty() && !flags.heatmap.ends_with(".png"))
+    throw Error({.where = "--heatmap",
+                 .expected = "a file ending in .png",
+                 .found = fmt::format("'{}'", flags.heatmap),
+                 .todo = ""},
+                Error::Kind::kUsage);
   const Image a = readImage(flags.a), b = readImage(flags.b);
   const Comparison result = compare(a, b, {.exposure = exposure, .useStandardError = flags.standardError});
   if (!flags.heatmap.empty()) writePng(errorMap(a, b), flags.heatmap);

@@ -100,6 +100,8 @@ std::vector<BadFlags> otherFlags() {
           {"NoCommand", {}, "--help"},
           {"SlabWithoutMaterial", {"slab"}, "--sigma-s"},
           {"SlabPhotons", {"slab", "--material", "marble", "--photons", "0"}, "--photons"},
+          {"SlabG", {"slab", "--material", "marble", "--g", "2"}, "g: "},
+          {"HeatmapFormat", {"compare", "a.exr", "b.exr", "--heatmap", "x.bmp"}, "x.bmp"},
           {"CompareOneFile", {"compare", "a.exr"}, "B"}};
 }
 
@@ -129,6 +131,18 @@ TEST(BadOutput, StatsIntoAMissingFolderIsSaidBeforeTheWork) {
       renderArguments("stone", {"--size", "10mm", "-o", "out.png", "--stats", "none/stats.json"}));
   expectOneLine(result, 1, "none");
   EXPECT_TRUE(scratch.names().empty());
+}
+
+TEST(BadInput, ComparePicturesOfDifferentSizes) {
+  const Scratch scratch;
+  for (const char* resolution : {"16x16", "16x17"}) {
+    const Result result =
+        scratch.run({"render", "stone", "--size", "10mm", "--method", "adaptive", "--map", "128",
+                     "--resolution", resolution, "-o", std::string(resolution) + ".exr"});
+    ASSERT_EQ(result.status, 0) << result.err;
+  }
+  expectOneLine(scratch.run({"compare", "16x16.exr", "16x17.exr", "--heatmap", "x.png"}), 1, "16 x 17");
+  EXPECT_EQ(scratch.names(), (std::set<std::string>{"16x16.exr", "16x17.exr"}));
 }
 
 TEST(BadInput, ComparePicturesThatAreNone) {
