@@ -30,7 +30,7 @@ struct Flags {
               singleSamples, map;
   std::string exposure = "0", toneMap = "srgb", time;
   std::string noise, tolerance;
-  std::string output, stats, device = "auto";
+  std::string output, resume, stats, device = "auto";
   int bits = 8, threads = 0, frames = 1;
   bool transparent = false, verbose = false, debug = false, turntable = false;
   uint64_t seed = 1;
@@ -220,6 +220,22 @@ Progress frameProgress(const Progress& whole, int index, int frames) {
   });
 }
 
+/// The picture that --resume goes on from; an empty one without the flag.
+Image resumed(const Flags& flags, const Scene& scene, const RenderSettings& settings) {
+  if (flags.resume.empty()) return {};
+  if (settings.method != Method::kWalk || flags.frames != 1)
+    usage("--resume", "one picture by --method walk", "another");
+  Image image = readImage(flags.resume);
+  const auto made = image.metadata.find("scene");
+  if (made == image.metadata.end() || made->second != sceneToToml(scene))
+    throw Error(
+        {.where = flags.resume,
+         .expected = "a walk of this very scene",
+         .found = made == image.metadata.end() ? "a picture of another origin" : "one of another scene",
+         .todo = "render with the flags it was made with"});
+  return image;
+}
+
 int render(const Flags& flags) {
   const LogSink log = terminalLog(flags.verbose);
   const RenderSettings settings = settingsFromFlags(flags);
@@ -229,13 +245,16 @@ int render(const Flags& flags) {
   parseNumber(flags.exposure, "--exposure");
   const Scene scene = sceneFromFlags(flags, log);
   if (!flags.saveScene.empty()) writeScene(scene, flags.saveScene);
+  const Image before = resumed(flags, scene, settings);
+  // What going on needs is kept in every EXR of the walk: an interruption is not foreseen.
+  const ReferenceOptions walk{.resume = before.empty() ? nullptr : &before, .keepState = isExr(flags.output)};
   ImageMaker maker({.device = flags.device, .debug = flags.debug, .log = log});
   const Progress progress = terminalProgress();
   const auto start = std::chrono::steady_clock::now();
   for (int i = 0; i < sweep.frames; ++i) {
     const Progress frame = frameProgress(progress, i, sweep.frames);
     frame.check({.what = "frames"});
-    Image image = maker.render(sceneAt(scene, sweep, i), settings, frame);
+    Image image = maker.render(sceneAt(scene, sweep, i), settings, frame, walk);
     finishProgress();
     const fs::path output =
         sweep.frames > 1 ? numbered(flags.output, i, sweep.frames) : fs::path(flags.output);
@@ -289,6 +308,7 @@ void addMethodFlags(CLI::App& command, Flags& flags) {
   command.add_option("--tolerance", flags.tolerance, "dipole: relative error to refine to (0.5%)");
   command.add_option("--time", flags.time, "walk: stop after this time (60s, 2min)");
   command.add_option("--noise", flags.noise, "walk: stop at this relative noise (2%)");
+  command.add_option("--resume", flags.resume, "walk: go on from this EXR of the same scene");
   command.add_option("--seed", flags.seed, "of the random numbers (1)")->check(CLI::NonNegativeNumber);
   command.add_option("--threads", flags.threads, "CPU threads, 0 = all cores");
   command.add_option("--device", flags.device, "auto, gpu, cpu or a number from `lychnite devices`");

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "lychnite/reference/reference.h"
 #include "lychnite/scene/scene_file.h"
 
 namespace lychnite {
@@ -11,14 +10,15 @@ const char* versionText() {
   return LYCHNITE_VERSION;
 }
 
-Image ImageMaker::render(const Scene& scene, const RenderSettings& settings, const Progress& progress) {
+Image ImageMaker::render(const Scene& scene, const RenderSettings& settings, const Progress& progress,
+                         const ReferenceOptions& walk) {
   Image image;
   lastWasRealTime_ = !isReference(settings.method);
   if (lastWasRealTime_) {
     if (!renderer_) renderer_ = std::make_unique<Renderer>(options_);
     image = renderer_->render(scene, settings, progress);
   } else {
-    image = renderReference(scene, settings, progress, options_.log);
+    image = renderReference(scene, settings, progress, options_.log, walk);
   }
   image.metadata["lychnite"] = versionText();
   image.metadata["method"] = methodName(settings.method);

@@ -4,6 +4,7 @@
 
 #include "lychnite/base/progress.h"
 #include "lychnite/image/image.h"
+#include "lychnite/reference/reference.h"
 #include "lychnite/scene/scene.h"
 #include "lychnite/scene/settings.h"
 #include "lychnite/technique/renderer.h"
@@ -17,8 +18,9 @@ class ImageMaker {
  public:
   explicit ImageMaker(RendererOptions options) : options_(std::move(options)) {}
 
-  /// Throws what Renderer::render and renderReference throw.
-  Image render(const Scene& scene, const RenderSettings& settings, const Progress& progress = {});
+  /// Throws what Renderer::render and renderReference throw. `walk` is read by that method only.
+  Image render(const Scene& scene, const RenderSettings& settings, const Progress& progress = {},
+               const ReferenceOptions& walk = {});
   /// Of the last real-time picture; nothing after a judge's.
   const RenderStats* stats() const { return lastWasRealTime_ ? &renderer_->stats() : nullptr; }
 
