@@ -1,7 +1,5 @@
 // size_strip PICTURE.png MODEL...: each model in marble at 5, 20 and 100 mm, lit from behind and a little
 // from the front; one row a model. What ./demo runs, and an example of the library: scene in, picture out.
-#include <fmt/format.h>
-
 #include <array>
 #include <cstdio>
 #include <string>
@@ -23,10 +21,10 @@ constexpr std::array kSizes{5.0, 20.0, 100.0};  // mm
 Scene sceneOf(const Object& object) {
   Scene scene;
   scene.objects = {object};
-  scene.lights = {ParallelLight{.azimuth = -145, .elevation = 25, .irradiance = Rgb(5.5)},
-                  ParallelLight{.azimuth = 40, .elevation = 30, .irradiance = Rgb(0.3)}};
-  scene.camera = OrbitCamera{.azimuth = -25, .elevation = 8};
-  scene.background = Rgb(0.004);
+  scene.lights = {ParallelLight{.azimuth = 140, .elevation = 30, .irradiance = Rgb(6)},
+                  ParallelLight{.azimuth = -50, .elevation = 35, .irradiance = Rgb(0.5)}};
+  scene.camera = OrbitCamera{.azimuth = 0, .elevation = 8};
+  scene.background = Rgb(0.01);
   return scene;
 }
 
@@ -59,9 +57,10 @@ void drawStrip(const std::string& path, const std::vector<std::string>& models) 
   std::vector<Panel> panels;
   for (size_t i = 0; i < pictures.size(); ++i)
     panels.push_back({.image = &pictures[i],
-                      .label = fmt::format("{}, marble, {} mm", nameOf(models[i / kSizes.size()]),
-                                           kSizes[i % kSizes.size()])});
-  writePng(montage(panels, {}, kSizes.size()), path);
+                      .label = nameOf(models[i / kSizes.size()]) + ", marble, " +
+                               std::to_string(int(kSizes[i % kSizes.size()])) + " mm"});
+  writePng(montage(panels, ToneMapping{.curve = ToneMapping::Curve::kFilmic, .exposure = 1}, kSizes.size()),
+           path);
 }
 
 }  // namespace
