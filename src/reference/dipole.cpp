@@ -108,8 +108,11 @@ bool refineParts(std::vector<ObjectSums>& objects, const Errors& errors, double 
     const double factor = std::clamp(std::pow(excess, 4.0 / 3.0), 2.0, 8.0);
     for (ObjectSums& object : objects) {
       Halves& part = object.parts[p];
-      if (part.refine >= kMostRefine) continue;
-      part.refine = std::min(kMostRefine, int(std::ceil(part.refine * factor)));
+      const int more = std::min(kMostRefine, int(std::ceil(part.refine * factor)));
+      const bool gains =
+          p == 0 ? object.plan->refined(more) > object.plan->refined(part.refine) : more > part.refine;
+      if (!gains) continue;
+      part.refine = more;
       part.done = false;
       any = true;
     }
@@ -150,7 +153,7 @@ DiffusionSum sumDipole(const RayScene& scene, const CameraReceivers& receivers,
     if (result.error <= settings.tolerance || !refineParts(objects, errors, settings.tolerance)) break;
   }
   for (const ObjectSums& object : objects) {
-    result.samples += 2 * object.plan->samples * size_t(object.parts[0].refine);
+    result.samples += 2 * object.plan->refined(object.parts[0].refine);
     for (size_t i = 0; i < object.receivers.size(); ++i)
       result.radiosity[object.receivers[i]] = glm::vec3(0.5 * (object.at(i, 0) + object.at(i, 1)));
   }

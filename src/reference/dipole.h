@@ -35,7 +35,8 @@ ObjectReceivers receiversOf(const CameraReceivers& receivers, int object);
 /// profile's core; what then is left about the receiver is integrated by probe rays (NearField). Every part
 /// is a stratified Monte Carlo estimate of its share of the integral, so two independent sums differ by their
 /// noise alone, and half their difference is the error of their mean. The samples of all shells and the
-/// probes double until that is small enough. Throws Interrupted.
+/// probes double until that is small enough or the bounds (8 Mi samples of an object, 16 times the probes)
+/// are met. Throws Interrupted.
 DiffusionSum sumDipole(const RayScene& scene, const CameraReceivers& receivers,
                        const RenderSettings& settings, int light, const Progress& progress = {});
 

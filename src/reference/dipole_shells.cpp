@@ -11,9 +11,8 @@
 namespace lychnite {
 namespace {
 
-constexpr double kReach = 6;                      ///< a shell's inner radius over its spacing
-constexpr size_t kGroup = 64;                     ///< receivers that share a list of sources
-constexpr size_t kMostSamples = 8 * 1024 * 1024;  ///< of a shell, whatever the refinement: about 500 MB
+constexpr double kReach = 6;   ///< a shell's inner radius over its spacing
+constexpr size_t kGroup = 64;  ///< receivers that share a list of sources
 
 double shortestCore(const Profile& profile) {
   double shortest = std::numeric_limits<double>::infinity();
@@ -111,7 +110,7 @@ std::vector<Rgb> DipoleShells::sumShells(const ShellPlan& plan, int refine, uint
   std::vector<Rgb> sums(receivers_.size(), Rgb(0));
   double done = 0;
   const Tick part = [&](double fraction) { tick((done + fraction) / double(plan.radius.size())); };
-  const size_t n = std::min(plan.samples * size_t(refine), kMostSamples);
+  const size_t n = plan.refined(refine);
   const FluxPoints all = litSamples(scene_, object_, sampler_, n, seed, light_);
   const double reach = longestDistance(groups_, all);
   for (size_t shell = 0; shell < plan.radius.size(); ++shell, ++done) {

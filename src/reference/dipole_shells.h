@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "lychnite/optics/profile.h"
@@ -19,6 +20,9 @@ struct ShellPlan {
   std::vector<double> radius;  ///< inner radius of each shell, the widest first
   std::vector<size_t> block;
   bool near = false;  ///< probes take what is inside the last radius; else it is 0
+
+  /// Samples when refined so many times: bounded, 8 Mi take about 500 MB while they are made.
+  size_t refined(int refine) const { return std::min(samples * size_t(refine), size_t(8) << 20); }
 
   /// Samples until their spacing is a sixth of the profile's shortest core, at most `most`. The last radius
   /// is six spacings, each one before it twice the next; points lie at most a twelfth of their shell's inner
