@@ -1,9 +1,11 @@
-# lychnite_module(<name> DEPENDS <modules...> [PUBLIC <libs...>] [PRIVATE <libs...>])
+# lychnite_module(<name> DEPENDS <modules...> [PUBLIC <libs...>] [PRIVATE <libs...>] [HEADERS <libs...>])
 #
 # One static library for one folder of src/. Its sources are src/<name>/**.cpp, its public headers
 # include/lychnite/<name>/. DEPENDS is checked against the layering by check_layers.cmake on every build.
+# HEADERS are header-only and used in sources only, so that who links an installed lychnite needs none of them;
+# the other libraries are looked for again by lychnite-config.cmake.in.
 function(lychnite_module name)
-  cmake_parse_arguments(ARG "" "" "DEPENDS;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "DEPENDS;PUBLIC;PRIVATE;HEADERS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   set(target lychnite_${name})
   if(NOT sources)
@@ -14,12 +16,18 @@ function(lychnite_module name)
   target_include_directories(${target}
     PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
     PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  target_compile_features(${target} PUBLIC cxx_std_20)
   foreach(dep ${ARG_DEPENDS})
     if(TARGET lychnite::${dep})
-    target_link_libraries(${target} PUBLIC lychnite::${dep})
+      target_link_libraries(${target} PUBLIC lychnite::${dep})
     endif()
   endforeach()
-  target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE} lychnite_flags)
+  target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  foreach(library lychnite_flags ${ARG_HEADERS})
+    target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:${library}>)
+  endforeach()
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  install(TARGETS ${target} EXPORT lychnite)
   add_dependencies(${target} lychnite_layers)
   set_property(GLOBAL APPEND PROPERTY LYCHNITE_MODULES ${name})
 endfunction()

@@ -72,7 +72,8 @@ int run(int argc, char** argv) {
   CLI::App app(
       "Renders translucent things as they look at their true size, and says how far each picture is from "
       "true "
-      "light transport.");
+      "light transport.",
+      "lychnite");
   app.set_version_flag("--version", std::string("lychnite ") + versionText());
   app.require_subcommand(1);
   Action action;

@@ -1,4 +1,5 @@
-#include "lychnite/base/error.h"
+#include <stdexcept>
+
 #include "lychnite/optics/profile.h"
 
 namespace lychnite {
@@ -11,14 +12,8 @@ std::unique_ptr<Profile> makeProfile(ProfileKind kind, const Coefficients& coeff
       return makeBetterDipole(coefficients);
     case ProfileKind::kNormalizedDiffusion:
       return makeNormalizedDiffusion(coefficients);
-    case ProfileKind::kTabulated:
-      break;
   }
-  throw Error({.where = "profile tabulated",
-               .expected = "a table measured by the transport",
-               .found = "only the material",
-               .todo = "use dipole, better-dipole or normalized-diffusion"},
-              Error::Kind::kUsage);
+  throw std::logic_error("a profile kind without a model");
 }
 
 }  // namespace lychnite

@@ -25,9 +25,9 @@ class Profile {
 };
 
 /// Every profile of --profile.
-enum class ProfileKind { kDipole, kBetterDipole, kNormalizedDiffusion, kTabulated };
+enum class ProfileKind { kDipole, kBetterDipole, kNormalizedDiffusion };
 
-/// "dipole", "better-dipole", "normalized-diffusion", "tabulated".
+/// "dipole", "better-dipole", "normalized-diffusion".
 std::string profileName(ProfileKind kind);
 /// Throws Error (Kind::kUsage) with the nearest name.
 ProfileKind parseProfileKind(std::string_view name, std::string_view where);
@@ -46,7 +46,7 @@ std::unique_ptr<Profile> makeBetterDipole(const Coefficients& coefficients);
 /// that disc, so that Rd(0) is finite and the total is kept. Channels with sigma_sp = 0 are 0.
 std::unique_ptr<Profile> makeNormalizedDiffusion(const Coefficients& coefficients);
 
-/// The profile of --profile. Throws Error (Kind::kUsage) for kTabulated, which no formula gives.
+/// The profile of --profile.
 std::unique_ptr<Profile> makeProfile(ProfileKind kind, const Coefficients& coefficients);
 
 /// Rd and P of any profile as a table that fits a texture: `size` entries, entry i at u = (i + .5)/size,
