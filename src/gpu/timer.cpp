@@ -34,8 +34,8 @@ GpuTimer::GpuTimer(const std::string& label)
     : ring_{Query(label), Query(label), Query(label), Query(label)} {}
 
 double GpuTimer::read(const Query& query) const {
-  // llvmpipe's first query after a context is made reports the time since the machine was booted; no device can have
-  // been busy for longer than has passed.
+  // llvmpipe's first query after a context is made reports the time since the machine was booted; no device
+  // can have been busy for longer than has passed.
   const std::chrono::duration<double, std::milli> passed = Clock::now() - query.begun;
   return std::min(readMs(query.id()), passed.count());
 }

@@ -37,9 +37,10 @@ bool looksLikeAFile(const std::string& model) {
 void reportRepairs(const LoadedMesh& loaded, const std::string& model, const LogSink& log) {
   const RepairReport& r = loaded.report;
   if (r.boundary_edges > 0)
-    logTo(log, LogLevel::kWarning,
-          fmt::format("{}: the surface has holes ({} open edges), so that light inside it is not well defined", model,
-                      r.boundary_edges));
+    logTo(
+        log, LogLevel::kWarning,
+        fmt::format("{}: the surface has holes ({} open edges), so that light inside it is not well defined",
+                    model, r.boundary_edges));
   if (r.duplicate_vertices || r.degenerate_triangles || r.unused_vertices || r.flipped)
     logTo(log, LogLevel::kInfo,
           fmt::format(

@@ -13,7 +13,8 @@ namespace lychnite {
 namespace {
 
 const std::vector<std::string>& methodNames() {
-  static const std::vector<std::string> names{"matched", "adaptive", "fixed", "dipole", "hierarchical", "walk"};
+  static const std::vector<std::string> names{"matched", "adaptive",     "fixed",
+                                              "dipole",  "hierarchical", "walk"};
   return names;
 }
 

@@ -11,7 +11,7 @@ namespace lychnite {
 /// An object in scene units.
 struct FrameObject {
   const Object* source = nullptr;
-  uint64_t mesh = 0;  ///< MeshCache's number of the mesh, never used twice
+  uint64_t mesh = 0;      ///< MeshCache's number of the mesh, never used twice
   glm::dmat4 toWorld{1};  ///< mesh to scene units
   glm::mat3 normalToWorld{1};
   Sphere bounds;        ///< scene units

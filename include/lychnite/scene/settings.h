@@ -23,9 +23,9 @@ struct Components {
 Components parseComponents(std::string_view list, std::string_view where);
 std::string componentsName(const Components& components);
 
-/// The constants of the paper's lattice (Yao & Wang 2009 eq. 4), which it leaves to experiment. They act only through
-/// C1 K and C2 K, so K stays 1. The defaults are tools/fit_lattice's, see docs/sampling.md for its sizes, materials and
-/// remaining error.
+/// The constants of the paper's lattice (Yao & Wang 2009 eq. 4), which it leaves to experiment. They act only
+/// through C1 K and C2 K, so K stays 1. The defaults are tools/fit_lattice's, see docs/sampling.md for its
+/// sizes, materials and remaining error.
 struct LatticeConstants {
   double C1 = 1.5, C2 = 0.375, K = 1;
 };
