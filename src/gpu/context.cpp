@@ -181,11 +181,40 @@ std::vector<DeviceInfo> listDevices() {
 }
 
 struct Context::Impl {
+  /// The driver's context is ours, a window's, or already wrapped by an older Context.
+  enum class Hold { kOwns, kBorrows, kShares };
+
+  void wrapCurrent(const ContextOptions& options, LogSink log);
+
   std::shared_ptr<ContextState> state = std::make_shared<ContextState>();
   DeviceInfo info;
+  Hold hold = Hold::kOwns;
 };
 
+void Context::Impl::wrapCurrent(const ContextOptions& options, LogSink log) {
+  const std::string missing = missingLibraries();
+  if (!missing.empty() || eglGetCurrentContext() == EGL_NO_CONTEXT)
+    throwNoDevice("a window", missing.empty() ? "no EGL context that is current" : missing);
+  info = describeCurrent();
+  if (!info.usable) throwNoDevice("a window", info.problem);
+  if (currentOnThread && currentOnThread->alive && currentOnThread->egl.context == eglGetCurrentContext()) {
+    state = currentOnThread;
+    hold = Hold::kShares;
+    return;
+  }
+  hold = Hold::kBorrows;
+  state->egl = {eglGetCurrentDisplay(), eglGetCurrentContext(), eglGetCurrentSurface(EGL_DRAW)};
+  state->debug = options.debug;
+  state->log = std::move(log);
+  currentOnThread = state;
+  prepare(*state);
+}
+
 Context::Context(const ContextOptions& options, LogSink log) : impl_(std::make_unique<Impl>()) {
+  if (options.current) {
+    impl_->wrapCurrent(options, std::move(log));
+    return;
+  }
   Opened opened = openDevice(options.device, options.debug);
   impl_->info = std::move(opened.info);
   impl_->state->egl = opened.egl;
@@ -198,13 +227,19 @@ Context::Context(const ContextOptions& options, LogSink log) : impl_(std::make_u
 }
 
 Context::~Context() {
+  if (impl_->hold == Impl::Hold::kShares) return;
   impl_->state->alive = false;
-  impl_->state->egl.close();
+  if (impl_->hold == Impl::Hold::kOwns)
+    impl_->state->egl.close();
+  else if (eglGetCurrentContext() == impl_->state->egl.context)
+    glDebugMessageCallback(nullptr, nullptr);
   if (currentOnThread == impl_->state) currentOnThread.reset();
 }
 
 void Context::makeCurrent() {
-  if (!impl_->state->egl.makeCurrent())
+  // Asking for what is current already would still flush a window's frame.
+  const bool already = eglGetCurrentContext() == impl_->state->egl.context;
+  if (!already && !impl_->state->egl.makeCurrent())
     throw Error({.where = "OpenGL",
                  .expected = "a context that no other thread uses",
                  .found = "one that cannot be made current",

@@ -175,4 +175,11 @@ EglContext openContext(const EglCandidate& candidate, bool debug, DeviceInfo& in
   return egl;
 }
 
+DeviceInfo describeCurrent() {
+  DeviceInfo info;
+  info.platform = "window";
+  describe(info);
+  return info;
+}
+
 }  // namespace lychnite::gpu

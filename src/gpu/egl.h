@@ -52,4 +52,7 @@ std::vector<EglCandidate> candidates();
 /// false, info.problem says why, and what was current before is not touched or nothing is current.
 EglContext openContext(const EglCandidate& candidate, bool debug, DeviceInfo& info);
 
+/// The context that is current on this thread; `platform` is "window".
+DeviceInfo describeCurrent();
+
 }  // namespace lychnite::gpu

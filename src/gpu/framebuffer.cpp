@@ -71,6 +71,22 @@ Framebuffer::Framebuffer(const FramebufferDesc& desc)
                 Error::Kind::kDevice);
 }
 
+Framebuffer::Framebuffer(int width, int height)
+    : Object(0, GL_FRAMEBUFFER, deleteFramebuffer, "window"), width_(width), height_(height), colours_(1) {}
+
+Framebuffer Framebuffer::ofWindow(int width, int height) {
+  return {width, height};
+}
+
+std::vector<uint8_t> Framebuffer::readBytes() const {
+  assert(!state().inPass);
+  std::vector<uint8_t> bytes(size_t(width_) * size_t(height_) * 4);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, id());
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, bytes.data());
+  return bytes;
+}
+
 void Framebuffer::clearColour(int index, const std::array<float, 4>& value) {
   assert(!state().inPass && index < colours_);
   glClearNamedFramebufferfv(id(), GL_COLOR, index, value.data());

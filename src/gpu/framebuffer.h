@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -27,6 +28,8 @@ struct FramebufferDesc {
 class Framebuffer : public Object {
  public:
   explicit Framebuffer(const FramebufferDesc& desc);
+  /// What the window shows after the next swap; `width` and `height` are its size in pixels now.
+  static Framebuffer ofWindow(int width, int height);
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -41,7 +44,12 @@ class Framebuffer : public Object {
   /// `target`, which must have the same size.
   void resolveColour(int index, Framebuffer& target, int targetIndex = 0) const;
 
+  /// RGBA, 8 bits each, row 0 lowest (waits for the device). For 8-bit targets and windows.
+  std::vector<uint8_t> readBytes() const;
+
  private:
+  Framebuffer(int width, int height);
+
   int width_ = 0, height_ = 0, colours_ = 0;
 };
 

@@ -11,6 +11,7 @@ namespace lychnite::gpu {
 
 Object::Object(uint32_t id, uint32_t kind, Deleter deleter, std::string label)
     : state_(currentState()), id_(id), deleter_(deleter), label_(std::move(label)) {
+  if (id_ == 0) return;  // the window's framebuffer, which is nobody's
   // 255 characters are what every driver takes.
   glObjectLabel(kind, id_, static_cast<GLsizei>(std::min<size_t>(label_.size(), 255)), label_.c_str());
 }

@@ -7,6 +7,7 @@
 #include <cassert>
 
 #include "gpu/context_state.h"
+#include "gpu/object_access.h"
 #include "lychnite/base/error.h"
 
 namespace lychnite::gpu {
@@ -139,6 +140,10 @@ size_t texelBytes(Format format) {
 
 int fullLevels(int width, int height) {
   return std::bit_width(static_cast<unsigned>(std::max({width, height, 1})));
+}
+
+uint32_t foreignName(const Texture& texture) {
+  return ObjectAccess::id(texture);
 }
 
 Texture::Texture(const TextureDesc& desc)

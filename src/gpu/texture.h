@@ -31,6 +31,10 @@ struct TextureDesc {
   std::array<float, 4> border{0, 0, 0, 0};  ///< used by kClampToBorder
 };
 
+class Texture;
+/// The number by which a drawing library that is not ours knows the texture (a UI's images).
+uint32_t foreignName(const Texture& texture);
+
 /// A two-dimensional texture of fixed size and format. A one-dimensional table is one of height 1. Row 0 is
 /// the lowest (v = 0). Throws Error (kUsage) when the device cannot hold the size asked for.
 class Texture : public Object {

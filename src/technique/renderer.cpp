@@ -10,6 +10,7 @@
 #include "lychnite/gpu/context.h"
 #include "technique/composite/composite_pass.h"
 #include "technique/read_back.h"
+#include "technique/renderer_textures.h"
 #include "technique/shading.h"
 
 namespace lychnite {
@@ -28,7 +29,8 @@ double seconds() {
 
 struct Renderer::Impl {
   explicit Impl(const RendererOptions& options)
-      : context({.device = options.device, .debug = options.debug}, options.log) {
+      : context({.device = options.device, .debug = options.debug, .current = options.useCurrentContext},
+                options.log) {
     context.checkErrors("making the renderer");
   }
 
@@ -36,7 +38,7 @@ struct Renderer::Impl {
   void drawLayers(const ShadingInputs& in, const Scene& scene);
   Image read(const Scene& scene, const RenderSettings& settings);
   void describe(Image& image, const RenderSettings& settings) const;
-  void fillStats(const Image& image, double start);
+  void fillStats(double start);
 
   /// Runs `work`, which returns how often it drew, under the timer of that name.
   template <class Work>
@@ -51,6 +53,7 @@ struct Renderer::Impl {
   }
 
   gpu::Context context;  // first: everything below lives in it
+  ProfileMaker profileMaker;
   MeshCache meshes;
   ProfileCache profiles;
   LightMapPass maps;
@@ -72,7 +75,7 @@ void Renderer::Impl::draw(const Scene& scene, const RenderSettings& settings, co
   progress.check({.what = "render", .fraction = 0, .detail = methodName(settings.method)});
   frame = makeFrame(scene, settings.width, settings.height);
   meshes.update(frame);
-  profiles.update(frame, settings.profile);
+  profiles.update(frame, settings.profile, profileMaker, progress);
   const LightMapNeeds needs{.size = settings.mapSize,
                             .cosine = true,
                             .fiveChannels = settings.method == Method::kFixed && settings.components.multiple,
@@ -153,8 +156,7 @@ void Renderer::Impl::describe(Image& image, const RenderSettings& settings) cons
   image.metadata["driver"] = context.device().version;
 }
 
-void Renderer::Impl::fillStats(const Image& image, double start) {
-  for (RenderStats::Pass& pass : stats.passes) pass.gpuMs = pass.runs > 0 ? timers.at(pass.name).wait() : 0;
+void Renderer::Impl::fillStats(double start) {
   const gpu::DeviceInfo& device = context.device();
   stats.device = device.renderer;
   stats.driver = device.version;
@@ -163,7 +165,6 @@ void Renderer::Impl::fillStats(const Image& image, double start) {
     stats.triangles += object.source->mesh->triangles.size();
     stats.vertices += object.source->mesh->positions.size();
   }
-  for (const float a : image.channel("A")) stats.coveredPixels += a > 0 ? 1 : 0;
   stats.mapBytes = maps.bytes();
   stats.gpuBytes = gpu::allocatedBytes();
   stats.frameMs = (seconds() - start) * 1000;
@@ -174,7 +175,9 @@ Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
-Image Renderer::render(const Scene& scene, const RenderSettings& settings, const Progress& progress) {
+namespace {
+
+void checkRequest(const Scene& scene, const RenderSettings& settings) {
   validate(scene);
   validate(settings);
   if (isReference(settings.method))
@@ -183,14 +186,46 @@ Image Renderer::render(const Scene& scene, const RenderSettings& settings, const
                  .found = fmt::format("'{}', which renderReference() renders", methodName(settings.method)),
                  .todo = ""},
                 Error::Kind::kUsage);
+}
+
+}  // namespace
+
+Image Renderer::render(const Scene& scene, const RenderSettings& settings, const Progress& progress) {
+  checkRequest(scene, settings);
   const double start = seconds();
   impl_->context.makeCurrent();
   impl_->stats = {};
   impl_->draw(scene, settings, progress);
   Image image = impl_->read(scene, settings);
-  impl_->fillStats(image, start);
+  for (RenderStats::Pass& pass : impl_->stats.passes)
+    pass.gpuMs = pass.runs > 0 ? impl_->timers.at(pass.name).wait() : 0;
+  for (const float a : image.channel("A")) impl_->stats.coveredPixels += a > 0 ? 1 : 0;
+  impl_->fillStats(start);
   impl_->context.checkErrors("render");
   return image;
+}
+
+void Renderer::draw(const Scene& scene, const RenderSettings& settings) {
+  checkRequest(scene, settings);
+  const double start = seconds();
+  impl_->context.makeCurrent();
+  impl_->stats = {};
+  impl_->draw(scene, settings, {});
+  for (RenderStats::Pass& pass : impl_->stats.passes)
+    pass.gpuMs = pass.runs > 0 ? impl_->timers.at(pass.name).poll().value_or(0) : 0;
+  impl_->fillStats(start);
+}
+
+const gpu::Texture& RendererTextures::picture(const Renderer& renderer) {
+  return renderer.impl_->composite.picture();
+}
+
+const gpu::Texture& RendererTextures::geometry(const Renderer& renderer) {
+  return renderer.impl_->geometry.samples();
+}
+
+const LightMapPass& RendererTextures::maps(const Renderer& renderer) {
+  return renderer.impl_->maps;
 }
 
 const RenderStats& Renderer::stats() const {

@@ -27,10 +27,14 @@ struct ContextOptions {
   std::string device =
       "auto";  ///< "auto" prefers a real GPU, "gpu" insists on one, "cpu" the software driver, or an index
   bool debug = false;  ///< ask for a debug context; error messages of KHR_debug make checkErrors() throw
+  /// Use the EGL context that is current on this thread (a window's) instead of making one; `device` is not
+  /// looked at. Several Contexts may wrap the same one; the first must live longest, the window longer still.
+  bool current = false;
 };
 
-/// An OpenGL 4.5 core context without a window. Current on the thread that made it; move it nowhere else
-/// without makeCurrent(). Throws Error (Kind::kDevice) when there is no usable one.
+/// An OpenGL 4.5 core context, its own or (ContextOptions::current) a window's. Current on the thread that
+/// made it; move it nowhere else without makeCurrent(). Throws Error (Kind::kDevice) when there is no usable
+/// one.
 class Context {
  public:
   explicit Context(const ContextOptions& options = {}, LogSink log = {});

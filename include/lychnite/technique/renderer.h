@@ -14,9 +14,11 @@
 namespace lychnite {
 
 struct RendererOptions {
-  std::string device = "auto";  ///< auto, gpu, cpu or an index of `lychnite devices`
-  bool debug = false;           ///< treat OpenGL debug errors as failures
+  std::string device = "auto";     ///< auto, gpu, cpu or an index of `lychnite devices`
+  bool debug = false;              ///< treat OpenGL debug errors as failures
+  bool useCurrentContext = false;  ///< draw in the EGL context current on this thread, e.g. a window's
   LogSink log;
+  ProfileMaker profiles;  ///< empty: formulas only (lychnite/optics/profile.h)
 };
 
 /// What the last render cost.
@@ -47,9 +49,14 @@ class Renderer {
 
   /// Linear picture with coverage and the AOVs asked for. Validates both arguments. Throws Error.
   Image render(const Scene& scene, const RenderSettings& settings, const Progress& progress = {});
+  /// The same without reading anything back: the picture stays on the device, where RendererTextures
+  /// (src/technique/renderer_textures.h) finds it. Never waits for the device: the passes' times are those of
+  /// the newest frame that it has finished. Throws Error.
+  void draw(const Scene& scene, const RenderSettings& settings);
   const RenderStats& stats() const;
 
  private:
+  friend struct RendererTextures;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -47,6 +47,26 @@ TEST_F(ContextTest, ListingDevicesLeavesTheContextCurrent) {
   EXPECT_EQ(after.download(), (std::vector<float>{3, 4}));
 }
 
+TEST_F(ContextTest, WrappingTheCurrentContextSharesIt) {
+  std::optional<Context> wrapped(ContextOptions{.current = true});
+  EXPECT_EQ(wrapped->device().renderer, context_->device().renderer);
+  Texture texture({.label = "shared", .format = Format::kR32f, .width = 2, .height = 1});
+  EXPECT_EQ(wrapped->allocatedBytes(), context_->allocatedBytes());
+  wrapped.reset();
+  texture.upload(std::vector<float>{3, 4});
+  EXPECT_EQ(texture.download(), (std::vector<float>{3, 4}));
+}
+
+TEST(ContextWrapTest, NothingToWrapIsADeviceError) {
+  try {
+    Context wrapped({.current = true});
+    FAIL() << "nothing was thrown";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), Error::Kind::kDevice);
+    EXPECT_NE(std::string(error.what()).find("window"), std::string::npos) << error.what();
+  }
+}
+
 TEST_F(ContextTest, CpuMeansASoftwareDriver) {
   std::optional<Context> software;
   try {
