@@ -296,7 +296,7 @@ void addSceneFlags(CLI::App& command, Flags& flags) {
 void addMethodFlags(CLI::App& command, Flags& flags) {
   command.add_option("--method", flags.method,
                      "matched (default), adaptive, fixed, dipole, hierarchical or walk");
-  command.add_option("--profile", flags.profile, "dipole (default), better-dipole or normalized-diffusion");
+  command.add_option("--profile", flags.profile, "dipole (default), better-dipole, normalized-diffusion or tabulated");
   command.add_option("--components", flags.components, "any of multiple,single,surface (default all)");
   command.add_option("--samples", flags.samples,
                      "matched: samples a pixel, 8 to 128 (32); walk: photons per pixel (16); adaptive, "

@@ -67,12 +67,20 @@ std::string radialTable(const SlabResult& result, const SlabSettings& settings) 
       "R,G,B transmitted, their standard errors\n";
   for (size_t i = 0; i < result.radialReflectance.size(); ++i) {
     const SlabShare &up = result.radialReflectance[i], &down = result.radialTransmittance[i];
-    text += fmt::format("{:.6g}", (double(i) + 0.5) * settings.radialStep);
+    text += fmt::format("{:.6g}", 0.5 * (settings.ringEdges[i] + settings.ringEdges[i + 1]));
     for (const Rgb& v : {up.value, up.standardError, down.value, down.standardError})
       text += fmt::format(" {:.6g} {:.6g} {:.6g}", v.x, v.y, v.z);
     text += "\n";
   }
   return text;
+}
+
+/// mm; where not given, a twentieth of the reduced mean free path, which resolves the profile's core.
+double ringWidth(const Flags& flags, const Coefficients& medium) {
+  if (!flags.radialStep.empty()) return parseLength(flags.radialStep, "--radial-step");
+  const Rgb sigma_tp = medium.sigma_tp();
+  const double largest = std::max({sigma_tp.x, sigma_tp.y, sigma_tp.z});
+  return largest > 0 ? 0.05 / largest : 1;
 }
 
 SlabSettings settingsFrom(const Flags& flags) {
@@ -100,15 +108,8 @@ SlabSettings settingsFrom(const Flags& flags) {
   settings.seed = flags.seed;
   settings.threads = flags.threads;
   if (flags.radial.empty()) return settings;
-  settings.radialBins = flags.radialBins;
-  if (!flags.radialStep.empty()) {
-    settings.radialStep = parseLength(flags.radialStep, "--radial-step");
-    return settings;
-  }
-  // A twentieth of the reduced mean free path resolves the profile's core.
-  const Rgb sigma_tp = settings.medium.sigma_tp();
-  const double largest = std::max({sigma_tp.x, sigma_tp.y, sigma_tp.z});
-  settings.radialStep = largest > 0 ? 0.05 / largest : 1;
+  const double step = ringWidth(flags, settings.medium);
+  for (int i = 0; i <= flags.radialBins; ++i) settings.ringEdges.push_back(i * step);
   return settings;
 }
 

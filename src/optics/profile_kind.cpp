@@ -9,7 +9,7 @@
 namespace lychnite {
 namespace {
 
-constexpr std::array<const char*, 3> kNames{"dipole", "better-dipole", "normalized-diffusion"};
+constexpr std::array<const char*, 4> kNames{"dipole", "better-dipole", "normalized-diffusion", "tabulated"};
 
 }  // namespace
 
@@ -23,10 +23,14 @@ ProfileKind parseProfileKind(std::string_view name, std::string_view where) {
   const std::vector<std::string> names(kNames.begin(), kNames.end());
   const std::string nearest = nearestName(name, names);
   throw Error({.where = std::string(where),
-               .expected = "dipole, better-dipole or normalized-diffusion",
+               .expected = "dipole, better-dipole, normalized-diffusion or tabulated",
                .found = fmt::format("'{}'", name),
                .todo = nearest.empty() ? "" : fmt::format("did you mean '{}'?", nearest)},
               Error::Kind::kUsage);
+}
+
+bool tellsOrdersApart(ProfileKind kind) {
+  return kind == ProfileKind::kTabulated;
 }
 
 }  // namespace lychnite

@@ -41,13 +41,13 @@ struct ObjectSums {
 };
 
 ObjectSums makeSums(const RayScene& scene, const CameraReceivers& camera, const RenderSettings& settings,
-                    int object, int light) {
+                    int object, const DiffusionPart& part, const Progress& progress) {
   ObjectSums sums;
   ObjectReceivers own = receiversOf(camera, object);
   if (own.index.empty()) return sums;
   sums.receivers = std::move(own.index);
-  sums.profile = makeProfile(settings.profile, scene.medium(object));
-  sums.shells = std::make_unique<DipoleShells>(scene, object, *sums.profile, std::move(own.hits), light);
+  sums.profile = makeProfile(part.profiles, {settings.profile, scene.medium(object), part.orders}, progress);
+  sums.shells = std::make_unique<DipoleShells>(scene, object, *sums.profile, std::move(own.hits), part.light);
   const size_t most = std::min(kMost, kMostEach * sums.receivers.size());
   sums.plan = std::make_unique<ShellPlan>(sums.shells->sampler(), *sums.profile, kFirst, most);
   sums.probes = sums.shells->planProbes(*sums.plan, kProbeNoise, settings.seed * 977 + uint64_t(object));
@@ -133,13 +133,13 @@ ObjectReceivers receiversOf(const CameraReceivers& receivers, int object) {
 }
 
 DiffusionSum sumDipole(const RayScene& scene, const CameraReceivers& receivers,
-                       const RenderSettings& settings, int light, const Progress& progress) {
+                       const RenderSettings& settings, const DiffusionPart& part, const Progress& progress) {
   DiffusionSum result;
   result.radiosity.assign(receivers.receivers.size(), glm::vec3(0));
   std::vector<ObjectSums> objects;
   for (size_t i = 0; i < scene.objectCount(); ++i) {
     if (scene.opaque(int(i))) continue;
-    ObjectSums sums = makeSums(scene, receivers, settings, int(i), light);
+    ObjectSums sums = makeSums(scene, receivers, settings, int(i), part, progress);
     if (!sums.receivers.empty()) objects.push_back(std::move(sums));
   }
   for (uint64_t pass = 0;; ++pass) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lychnite/base/progress.h"
+#include "lychnite/optics/profile.h"
 #include "lychnite/scene/settings.h"
 #include "reference/camera_receivers.h"
 #include "reference/ray_scene.h"
@@ -19,6 +20,13 @@ struct DiffusionSum {
   size_t samples = 0;                ///< surface samples, of all objects
 };
 
+/// What is summed: whose light and which profile.
+struct DiffusionPart {
+  int light = -1;         ///< one of the scene's lights, -1 for all
+  ProfileMaker profiles;  ///< empty: formulas only
+  ProfileOrders orders = ProfileOrders::kAll;
+};
+
 /// The receivers that lie on one object.
 struct ObjectReceivers {
   std::vector<uint32_t> index;  ///< into CameraReceivers::receivers
@@ -27,8 +35,7 @@ struct ObjectReceivers {
 ObjectReceivers receiversOf(const CameraReceivers& receivers, int object);
 
 /// The dipole integral (of any profile) for the judge's use: unbiased, and refined until the estimated
-/// relative RMSE over the receivers is below settings.tolerance. `light` picks one of the scene's lights, -1
-/// takes all.
+/// relative RMSE over the receivers is below settings.tolerance.
 ///
 /// The kernel is cut by smooth windows into shells. The outermost is summed over all of a first set of
 /// surface samples; each next one, half as wide, over samples twice as dense, until they resolve the
@@ -38,6 +45,7 @@ ObjectReceivers receiversOf(const CameraReceivers& receivers, int object);
 /// probes double until that is small enough or the bounds (8 Mi samples of an object, 16 times the probes)
 /// are met. Throws Interrupted.
 DiffusionSum sumDipole(const RayScene& scene, const CameraReceivers& receivers,
-                       const RenderSettings& settings, int light, const Progress& progress = {});
+                       const RenderSettings& settings, const DiffusionPart& part = {},
+                       const Progress& progress = {});
 
 }  // namespace lychnite

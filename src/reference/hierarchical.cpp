@@ -31,18 +31,18 @@ size_t sampleCount(const SurfaceSampler& sampler, const Coefficients& medium, si
 
 /// Radiosity at the points of one object.
 std::vector<Rgb> sumObject(const RayScene& scene, int object, const std::vector<RayHit>& receivers,
-                           const RenderSettings& settings, int light, size_t& samples, const Tick& tick) {
+                           const RenderSettings& settings, const DiffusionPart& part, const Profile& profile,
+                           size_t& samples, const Tick& tick) {
   const Coefficients medium = scene.medium(object);
-  const std::unique_ptr<Profile> profile = makeProfile(settings.profile, medium);
   const PointGroups groups(positionsOf(receivers), kGroup);
   const SurfaceSampler sampler(scene.mesh(object));
   samples = sampleCount(sampler, medium, receivers.size());
-  FluxPoints sources = litSamples(scene, object, sampler, samples, settings.seed, light);
+  FluxPoints sources = litSamples(scene, object, sampler, samples, settings.seed, part.light);
   const double reach = longestDistance(groups, sources);
   const FluxOctree tree(std::move(sources), sampler.area() / double(samples));
-  const bool near = !resolves(*profile, sampler.spacing(samples));
+  const bool near = !resolves(profile, sampler.spacing(samples));
   const double nearRadius = near ? kNearReach * sampler.spacing(samples) : 0;
-  const KernelTable kernel(*profile, nearRadius, 0, reach);
+  const KernelTable kernel(profile, nearRadius, 0, reach);
   std::vector<Rgb> sums(receivers.size(), Rgb(0));
   forGroups(
       groups, [&](double f) { tick(near ? 0.5 * f : f); },
@@ -55,7 +55,7 @@ std::vector<Rgb> sumObject(const RayScene& scene, int object, const std::vector<
         }
       });
   if (near) {
-    const NearField field(scene, object, *profile, nearRadius, light);
+    const NearField field(scene, object, profile, nearRadius, part.light);
     const std::vector<int> probes = field.planProbes(receivers, groups, kProbeNoise, settings.seed * 2 + 1);
     field.add(
         receivers, groups, probes, 1, settings.seed * 2, [&](double f) { tick(0.5 + 0.5 * f); }, sums);
@@ -66,7 +66,8 @@ std::vector<Rgb> sumObject(const RayScene& scene, int object, const std::vector<
 }  // namespace
 
 DiffusionSum sumHierarchical(const RayScene& scene, const CameraReceivers& receivers,
-                             const RenderSettings& settings, int light, const Progress& progress) {
+                             const RenderSettings& settings, const DiffusionPart& part,
+                             const Progress& progress) {
   DiffusionSum result;
   result.radiosity.assign(receivers.receivers.size(), glm::vec3(0));
   const double objects = double(scene.objectCount());
@@ -78,8 +79,11 @@ DiffusionSum sumHierarchical(const RayScene& scene, const CameraReceivers& recei
       progress.check(
           {.what = "hierarchical", .fraction = (double(object) + fraction) / objects, .detail = ""});
     };
+    const auto profile =
+        makeProfile(part.profiles, {settings.profile, scene.medium(int(object)), part.orders}, progress);
     size_t samples = 0;
-    const std::vector<Rgb> sums = sumObject(scene, int(object), own.hits, settings, light, samples, tick);
+    const std::vector<Rgb> sums =
+        sumObject(scene, int(object), own.hits, settings, part, *profile, samples, tick);
     result.samples += samples;
     for (size_t i = 0; i < own.index.size(); ++i) result.radiosity[own.index[i]] = glm::vec3(sums[i]);
   }

@@ -11,9 +11,9 @@ namespace lychnite {
 /// Bounded at any size: at least 64 Ki and at most 4 Mi samples of an object (about 300 MB while they are
 /// made), and at most 2048 for each receiver where that is more than 128 Ki. Where these lie too far apart
 /// for the profile's core, the kernel within twelve spacings of a receiver is integrated by probe rays with
-/// the flat, evenly lit surface taken out exactly (NearField). `light` picks one of the scene's lights, -1
-/// takes all. Throws Interrupted.
+/// the flat, evenly lit surface taken out exactly (NearField). Throws Interrupted.
 DiffusionSum sumHierarchical(const RayScene& scene, const CameraReceivers& receivers,
-                             const RenderSettings& settings, int light, const Progress& progress = {});
+                             const RenderSettings& settings, const DiffusionPart& part = {},
+                             const Progress& progress = {});
 
 }  // namespace lychnite

@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <chrono>
 #include <glm/geometric.hpp>
 
@@ -48,26 +49,48 @@ std::vector<glm::vec3> singlePart(const RayScene& rays, const CameraReceivers& r
   return sum;
 }
 
+DiffusionSum sumDiffusion(const RayScene& rays, const CameraReceivers& receivers,
+                          const RenderSettings& settings, const DiffusionPart& part,
+                          const Progress& progress) {
+  return settings.method == Method::kDipole ? sumDipole(rays, receivers, settings, part, progress)
+                                            : sumHierarchical(rays, receivers, settings, part, progress);
+}
+
+/// The estimate may have stopped above what was asked for, because more samples are not to be had.
+void warnAboveTolerance(const DiffusionSum& sum, const RenderSettings& settings, const LogSink& log) {
+  if (settings.method != Method::kDipole || sum.error <= settings.tolerance) return;
+  logTo(log, LogLevel::kWarning,
+        fmt::format(
+            "dipole: stopped at an estimated error of {:.2g} %, above the tolerance of {:.2g} %, where its "
+            "samples are at their bounds",
+            100 * sum.error, 100 * settings.tolerance));
+}
+
 /// A picture of a method that sums a diffusion profile over the surface.
 Image renderDiffusion(const RayScene& rays, const CameraReceivers& receivers, const RenderSettings& settings,
-                      const Progress& progress) {
+                      const ProfileMaker& profiles, const Progress& progress, const LogSink& log) {
   const auto start = std::chrono::steady_clock::now();
   PictureParts parts;
-  DiffusionSum sum;
-  if (settings.components.multiple || settings.wants("radiosity")) {
-    sum = settings.method == Method::kDipole ? sumDipole(rays, receivers, settings, -1, progress)
-                                             : sumHierarchical(rays, receivers, settings, -1, progress);
-    if (settings.components.multiple) parts.multiple = gathered(rays, receivers, sum.radiosity, true);
-  }
+  DiffusionSum sum, whole;
+  const bool wantsWhole = settings.wants("radiosity"), apart = tellsOrdersApart(settings.profile);
+  const auto summed = [&](ProfileOrders orders) {
+    const DiffusionPart part{.profiles = profiles, .orders = orders};
+    DiffusionSum result = sumDiffusion(rays, receivers, settings, part, progress);
+    warnAboveTolerance(result, settings, log);
+    return result;
+  };
+  if (settings.components.multiple || (wantsWhole && !apart)) sum = summed(ProfileOrders::kFromSecond);
+  if (settings.components.multiple) parts.multiple = gathered(rays, receivers, sum.radiosity, true);
+  if (wantsWhole && apart) whole = summed(ProfileOrders::kAll);
   if (settings.components.single) parts.single = singlePart(rays, receivers, settings.seed, progress);
   if (settings.components.surface) parts.surface = surfacePart(rays, receivers);
   Image image = assemblePicture(rays, receivers, settings, parts);
   if (settings.wants("radiosity"))
-    addLayer(image, "radiosity", gathered(rays, receivers, sum.radiosity, false));
+    addLayer(image, "radiosity", gathered(rays, receivers, (apart ? whole : sum).radiosity, false));
   image.metadata["profile"] = profileName(settings.profile);
-  image.metadata["surface_samples"] = fmt::format("{}", sum.samples);
+  image.metadata["surface_samples"] = fmt::format("{}", std::max(sum.samples, whole.samples));
   if (settings.method == Method::kDipole)
-    image.metadata["estimated_error"] = fmt::format("{:.6g}", sum.error);
+    image.metadata["estimated_error"] = fmt::format("{:.6g}", std::max(sum.error, whole.error));
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   image.metadata["seconds"] = fmt::format("{:.3f}", seconds.count());
   return image;
@@ -91,7 +114,7 @@ Image renderReference(const Scene& scene, const RenderSettings& settings, const 
     const CameraReceivers receivers = findReceivers(rays, settings.width, settings.height);
     if (settings.method == Method::kWalk)
       return renderWalk(rays, receivers, settings, options, progress, log);
-    return renderDiffusion(rays, receivers, settings, progress);
+    return renderDiffusion(rays, receivers, settings, options.profiles, progress, log);
   });
 }
 

@@ -35,9 +35,12 @@ void validate(const SlabSettings& s) {
     fail("--incidence", "0 to below 90 degrees", s.incidenceDegrees);
   if (s.photons < 1) fail("--photons", "at least 1", double(s.photons));
   if (s.threads < 0) fail("--threads", "0 or more", s.threads);
-  if (s.radialBins < 0 || s.radialBins > 1'000'000) fail("--radial", "0 to 1000000 rings", s.radialBins);
-  if (s.radialBins > 0 && !(s.radialStep > 0 && std::isfinite(s.radialStep)))
-    fail("--radial", "rings of a width above 0 mm", s.radialStep);
+  if (s.ringEdges.size() == 1 || s.ringEdges.size() > 1'000'001)
+    fail("--radial", "1 to 1000000 rings", double(s.ringEdges.size()) - 1);
+  for (size_t i = 0; i < s.ringEdges.size(); ++i)
+    if (!(s.ringEdges[i] >= 0 && std::isfinite(s.ringEdges[i])) ||
+        (i > 0 && !(s.ringEdges[i] > s.ringEdges[i - 1])))
+      fail("--radial", "rings of a width above 0 mm", s.ringEdges[i]);
 }
 
 /// Shares of light that crosses the slab unscattered, all mirrorings between the two faces included.
@@ -78,8 +81,8 @@ Unscattered unscattered(const SlabSettings& s) {
 
 /// Sums of one block of photons.
 struct Tally {
-  Rgb reflected{0}, transmitted{0}, absorbed{0};
-  std::vector<Rgb> reflectedRing, transmittedRing;
+  Rgb reflected{0}, reflectedOnce{0}, transmitted{0}, absorbed{0};
+  std::vector<Rgb> reflectedRing, reflectedOnceRing, transmittedRing;
 };
 
 /// One photon on its way through the slab; lengths in mm, z downwards from the top.
@@ -111,7 +114,7 @@ class SlabPhoton {
     position_ += double(flight) * glm::dvec3(direction_);
     tally.absorbed += Rgb(weight_.scatter(medium_, flight));
     direction_ = transport::scattered(direction_, medium_.g, rng_);
-    scattered_ = true;
+    ++order_;
     return weight_.survives(kRouletteBelow, rng_) && goesDeeper();
   }
 
@@ -131,17 +134,21 @@ class SlabPhoton {
       direction_.z = -direction_.z;
       return true;
     }
-    if (scattered_) leave(top, tally);
+    if (order_ > 0) leave(top, tally);
     return false;
   }
 
   void leave(bool top, Tally& tally) const {
     const Rgb flux(weight_.flux());
+    const bool once = top && order_ == 1;
     (top ? tally.reflected : tally.transmitted) += flux;
-    auto& rings = top ? tally.reflectedRing : tally.transmittedRing;
-    if (rings.empty()) return;
-    const double ring = std::hypot(position_.x, position_.y) / settings_.radialStep;
-    if (ring < double(rings.size())) rings[size_t(ring)] += flux;
+    if (once) tally.reflectedOnce += flux;
+    const std::vector<double>& edges = settings_.ringEdges;
+    const auto edge = std::upper_bound(edges.begin(), edges.end(), std::hypot(position_.x, position_.y));
+    if (edge == edges.begin() || edge == edges.end()) return;
+    const auto ring = size_t(edge - edges.begin() - 1);
+    (top ? tally.reflectedRing : tally.transmittedRing)[ring] += flux;
+    if (once) tally.reflectedOnceRing[ring] += flux;
   }
 
   /// In a half-space the walk of an unabsorbed photon has no mean length. Whenever one is twice as deep as
@@ -161,13 +168,17 @@ class SlabPhoton {
   glm::dvec3 position_{0};
   glm::vec3 direction_{0, 0, 1};
   double rouletteDepth_ = 0;
-  bool scattered_ = false;
+  int order_ = 0;  ///< collisions so far
 };
+
+size_t ringCount(const SlabSettings& settings) {
+  return settings.ringEdges.empty() ? 0 : settings.ringEdges.size() - 1;
+}
 
 Tally traceBlock(const SlabSettings& settings, const Medium& medium, uint64_t block, uint64_t photons) {
   Tally tally;
-  tally.reflectedRing.resize(size_t(settings.radialBins));
-  tally.transmittedRing.resize(size_t(settings.radialBins));
+  for (auto* rings : {&tally.reflectedRing, &tally.reflectedOnceRing, &tally.transmittedRing})
+    rings->resize(ringCount(settings));
   Rng rng(settings.seed, block);
   for (uint64_t i = 0; i < photons; ++i) SlabPhoton(settings, medium, rng, int(i % 3)).trace(tally);
   return tally;
@@ -196,25 +207,27 @@ class BlockMean {
 };
 
 struct SlabMeans {
-  BlockMean reflected, transmitted, absorbed;
-  std::vector<BlockMean> reflectedRing, transmittedRing;
+  BlockMean reflected, reflectedOnce, transmitted, absorbed;
+  std::vector<BlockMean> reflectedRing, reflectedOnceRing, transmittedRing;
 
-  explicit SlabMeans(int rings) : reflectedRing(size_t(rings)), transmittedRing(size_t(rings)) {}
+  explicit SlabMeans(size_t rings) : reflectedRing(rings), reflectedOnceRing(rings), transmittedRing(rings) {}
   void add(const Tally& tally, double photons) {
     reflected.add(tally.reflected, photons);
+    reflectedOnce.add(tally.reflectedOnce, photons);
     transmitted.add(tally.transmitted, photons);
     absorbed.add(tally.absorbed, photons);
     for (size_t i = 0; i < reflectedRing.size(); ++i) {
       reflectedRing[i].add(tally.reflectedRing[i], photons);
+      reflectedOnceRing[i].add(tally.reflectedOnceRing[i], photons);
       transmittedRing[i].add(tally.transmittedRing[i], photons);
     }
   }
 };
 
-std::vector<SlabShare> perArea(const std::vector<BlockMean>& rings, double step) {
+std::vector<SlabShare> perArea(const std::vector<BlockMean>& rings, const std::vector<double>& edges) {
   std::vector<SlabShare> result;
   for (size_t i = 0; i < rings.size(); ++i) {
-    const double area = std::numbers::pi * step * step * double(2 * i + 1);
+    const double area = std::numbers::pi * (edges[i + 1] * edges[i + 1] - edges[i] * edges[i]);
     const SlabShare share = rings[i].share();
     result.push_back({share.value / area, share.standardError / area});
   }
@@ -231,8 +244,10 @@ SlabResult assemble(const SlabSettings& settings, const SlabMeans& means) {
   result.total_transmittance.value += straight.transmitted;
   result.unscattered_transmittance.value = straight.transmitted;
   result.absorbed = means.absorbed.share();
-  result.radialReflectance = perArea(means.reflectedRing, settings.radialStep);
-  result.radialTransmittance = perArea(means.transmittedRing, settings.radialStep);
+  result.reflectance_once = means.reflectedOnce.share();
+  result.radialReflectance = perArea(means.reflectedRing, settings.ringEdges);
+  result.radialReflectanceOnce = perArea(means.reflectedOnceRing, settings.ringEdges);
+  result.radialTransmittance = perArea(means.transmittedRing, settings.ringEdges);
   return result;
 }
 
@@ -245,7 +260,7 @@ SlabResult simulateSlab(const SlabSettings& settings, const Progress& progress) 
   // At least 32 blocks, so that the standard error itself is known to about 13 %.
   const uint64_t block = std::clamp<uint64_t>(settings.photons / 32, 1, kBlock);
   const uint64_t blocks = (settings.photons + block - 1) / block;
-  SlabMeans means(settings.radialBins);
+  SlabMeans means(ringCount(settings));
   tbb::task_arena arena(settings.threads > 0 ? settings.threads : tbb::task_arena::automatic);
   const uint64_t wave = uint64_t(arena.max_concurrency()) * 8;
   for (uint64_t first = 0; first < blocks; first += wave) {

@@ -60,7 +60,8 @@ double spiralScaleOf(const Profile& profile) {
 
 }  // namespace
 
-void ProfileCache::update(const Frame& frame, ProfileKind kind) {
+void ProfileCache::update(const Frame& frame, ProfileKind kind, const ProfileMaker& maker,
+                          const Progress& progress) {
   entries_.resize(frame.objects.size());
   for (size_t i = 0; i < frame.objects.size(); ++i) {
     const FrameObject& object = frame.objects[i];
@@ -73,13 +74,13 @@ void ProfileCache::update(const Frame& frame, ProfileKind kind) {
     entry = Entry();
     entry.piC = std::numbers::pi * diffuseTransmittanceOutside(m.eta);
     if (object.translucent) {
-      const auto profile = makeProfile(kind, m);
+      const auto profile = makeProfile(maker, {kind, m, ProfileOrders::kFromSecond}, progress);
       const ProfileTable table(*profile, 1);
       entry.table.emplace(tableTexture(table));
       entry.reach = reachOf(*profile);
       entry.spiralScale = spiralScaleOf(*profile);
       entry.scale = float(table.scale());
-      entry.total = profile->P(0);
+      entry.total = makeProfile(maker, {kind, m, ProfileOrders::kAll}, progress)->P(0);
     } else {
       entry.total = object.source->material.colour;
     }

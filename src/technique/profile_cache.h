@@ -23,7 +23,8 @@ class ProfileCache {
     Rgb total{0};     ///< P(0), the diffuse reflectance of the half-space
     double piC = 1;   ///< pi C(eta) of the exit lobe
   };
-  void update(const Frame& frame, ProfileKind kind);
+  /// Profiles are made by `maker` (makeProfile). Throws what it throws.
+  void update(const Frame& frame, ProfileKind kind, const ProfileMaker& maker, const Progress& progress);
   const Entry& get(size_t object) const { return entries_[object]; }
 
  private:

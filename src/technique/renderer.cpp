@@ -30,7 +30,8 @@ double seconds() {
 struct Renderer::Impl {
   explicit Impl(const RendererOptions& options)
       : context({.device = options.device, .debug = options.debug, .current = options.useCurrentContext},
-                options.log) {
+                options.log),
+        profileMaker(options.profiles) {
     context.checkErrors("making the renderer");
   }
 

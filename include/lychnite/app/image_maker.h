@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "lychnite/app/profile_store.h"
 #include "lychnite/base/progress.h"
 #include "lychnite/image/image.h"
 #include "lychnite/reference/reference.h"
@@ -13,18 +14,20 @@ namespace lychnite {
 
 /// Any method, one call: the real-time methods through one Renderer that is made when first needed and kept,
 /// the judges through renderReference(). Pictures carry what made them (scene, settings, version) as
-/// metadata.
+/// metadata. Profiles come from a ProfileStore on the user's cache folder, unless `options` brings a maker of
+/// its own.
 class ImageMaker {
  public:
-  explicit ImageMaker(RendererOptions options) : options_(std::move(options)) {}
+  explicit ImageMaker(RendererOptions options);
 
-  /// Throws what Renderer::render and renderReference throw. `walk` is read by that method only.
+  /// Throws what Renderer::render and renderReference throw. `reference` is read by the judges only.
   Image render(const Scene& scene, const RenderSettings& settings, const Progress& progress = {},
-               const ReferenceOptions& walk = {});
+               const ReferenceOptions& reference = {});
   /// Of the last real-time picture; nothing after a judge's.
   const RenderStats* stats() const { return lastWasRealTime_ ? &renderer_->stats() : nullptr; }
 
  private:
+  std::unique_ptr<ProfileStore> store_;
   RendererOptions options_;
   std::unique_ptr<Renderer> renderer_;
   bool lastWasRealTime_ = false;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "lychnite/base/progress.h"
 #include "lychnite/optics/coefficients.h"
 
 namespace lychnite {
@@ -25,9 +26,9 @@ class Profile {
 };
 
 /// Every profile of --profile.
-enum class ProfileKind { kDipole, kBetterDipole, kNormalizedDiffusion };
+enum class ProfileKind { kDipole, kBetterDipole, kNormalizedDiffusion, kTabulated };
 
-/// "dipole", "better-dipole", "normalized-diffusion".
+/// "dipole", "better-dipole", "normalized-diffusion", "tabulated".
 std::string profileName(ProfileKind kind);
 /// Throws Error (Kind::kUsage) with the nearest name.
 ProfileKind parseProfileKind(std::string_view name, std::string_view where);
@@ -46,7 +47,27 @@ std::unique_ptr<Profile> makeBetterDipole(const Coefficients& coefficients);
 /// that disc, so that Rd(0) is finite and the total is kept. Channels with sigma_sp = 0 are 0.
 std::unique_ptr<Profile> makeNormalizedDiffusion(const Coefficients& coefficients);
 
-/// The profile of --profile.
+/// Which orders of scattering a profile is asked to hold. Only kTabulated can tell them apart
+/// (docs/physics.md); the formulas hold what they were derived for.
+enum class ProfileOrders { kAll, kFromSecond };
+bool tellsOrdersApart(ProfileKind kind);
+
+struct ProfileRequest {
+  ProfileKind kind = ProfileKind::kDipole;
+  Coefficients medium;  ///< in any unit of length; the profile is in the same
+  ProfileOrders orders = ProfileOrders::kAll;
+};
+
+/// Makes profiles for a renderer, the measured ones too: app/ has one (ProfileStore). An empty one stands for
+/// the formulas. May take long (Progress), and throws Interrupted.
+using ProfileMaker = std::function<std::unique_ptr<Profile>(const ProfileRequest&, const Progress&)>;
+
+/// By `maker`, or, where it is empty, by the formulas; then throws Error (Kind::kUsage) for kTabulated, which
+/// no formula gives.
+std::unique_ptr<Profile> makeProfile(const ProfileMaker& maker, const ProfileRequest& request,
+                                     const Progress& progress = {});
+
+/// A profile by its formula. Throws Error (Kind::kUsage) for kTabulated.
 std::unique_ptr<Profile> makeProfile(ProfileKind kind, const Coefficients& coefficients);
 
 /// Rd and P of any profile as a table that fits a texture: `size` entries, entry i at u = (i + .5)/size,

@@ -8,13 +8,14 @@
 
 namespace lychnite {
 
-/// What only the walk reads.
+/// What only the judges read.
 struct ReferenceOptions {
   /// A picture of the walk to go on from: same scene, resolution and settings (limits may differ), made with
   /// keepState. Its photons count towards settings.samples.
   const Image* resume = nullptr;
-  /// Adds the layers "state.*" and metadata that `resume` needs.
+  /// Of the walk: adds the layers "state.*" and metadata that `resume` needs.
   bool keepState = false;
+  ProfileMaker profiles;  ///< of dipole and hierarchical; empty: formulas only (lychnite/optics/profile.h)
 };
 
 /// Renders a scene on the CPU by settings.method (dipole, hierarchical or walk). Same picture conventions as

@@ -18,9 +18,9 @@ struct SlabSettings {
   uint64_t photons = 1'000'000;
   uint64_t seed = 1;
   int threads = 0;  ///< 0 = all cores
-  /// Rings of the radial table; 0 for none. Ring i spans radialStep * [i, i + 1).
-  int radialBins = 0;
-  double radialStep = 0;  ///< mm, > 0 when there are rings
+  /// Rings of the radial tables, mm, rising from 0 or more; ring i spans [ringEdges[i], ringEdges[i + 1]).
+  /// Empty for none.
+  std::vector<double> ringEdges;
 };
 
 /// A share of the incident power per channel, and its standard error.
@@ -39,6 +39,9 @@ struct SlabResult {
   SlabShare absorbed;
   /// Exitance around a pencil beam, per unit power, 1/mm^2, mean over each ring, scattered light only.
   std::vector<SlabShare> radialReflectance, radialTransmittance;
+  /// The part of radialReflectance, and of its power in all rings and beyond, that was scattered but once.
+  std::vector<SlabShare> radialReflectanceOnce;
+  SlabShare reflectance_once;
   double seconds = 0;
 };
 

@@ -18,7 +18,7 @@ using test::picture;
 
 DiffusionSum sumOf(const Scene& scene, const RenderSettings& settings) {
   const RayScene rays(scene);
-  return sumDipole(rays, findReceivers(rays, settings.width, settings.height), settings, -1);
+  return sumDipole(rays, findReceivers(rays, settings.width, settings.height), settings);
 }
 
 /// The receiver nearest to the picture's middle.
@@ -54,7 +54,7 @@ TEST_P(Disc, CentreGivesBackTheHalfSpaceTotal) {
   settings.profile = how.profile;
   const RayScene rays(scene);
   const CameraReceivers receivers = findReceivers(rays, 12, 12);
-  const DiffusionSum sum = sumDipole(rays, receivers, settings, -1);
+  const DiffusionSum sum = sumDipole(rays, receivers, settings);
   const Coefficients medium = scene.objects[0].material.medium;
   // The light that a disc of this radius loses at its edge is gone from the expectation too.
   const auto profile = makeProfile(how.profile, medium);
@@ -103,7 +103,7 @@ TEST_P(SphereSizes, AgreesWithQuadrature) {
   scene.lights = {ParallelLight{.azimuth = 100, .elevation = 20, .irradiance = Rgb(1)}};
   const RayScene rays(scene);
   const CameraReceivers receivers = findReceivers(rays, 16, 16);
-  const DiffusionSum sum = sumDipole(rays, receivers, picture(16, 0.003), -1);
+  const DiffusionSum sum = sumDipole(rays, receivers, picture(16, 0.003));
   const auto profile = makeDipole(rays.medium(0));
   const glm::dvec3 light = directionFromAngles(100, 20);
   DiffusionSum expected = sum;
@@ -133,10 +133,10 @@ TEST(Dipole, ItsErrorEstimateIsHonest) {
   for (double size : {10.0, 100.0}) {
     const RayScene rays(litScene("knot", "skin2", size, 150));
     const CameraReceivers receivers = findReceivers(rays, 28, 28);
-    const DiffusionSum rough = sumDipole(rays, receivers, picture(28, 0.02), -1);
+    const DiffusionSum rough = sumDipole(rays, receivers, picture(28, 0.02));
     RenderSettings fine = picture(28, 0.3 * rough.error);
     fine.seed = 99;
-    const DiffusionSum truth = sumDipole(rays, receivers, fine, -1);
+    const DiffusionSum truth = sumDipole(rays, receivers, fine);
     const double found = test::relativeError(rough, truth, receivers);
     EXPECT_LE(rough.error, 0.02) << size;
     EXPECT_GT(found, 0.3 * rough.error) << size;
@@ -150,9 +150,9 @@ TEST(Dipole, TwoLightsAreTheSum) {
   const RayScene rays(scene);
   const CameraReceivers receivers = findReceivers(rays, 24, 24);
   const RenderSettings settings = picture(24, 0.003);
-  const DiffusionSum both = sumDipole(rays, receivers, settings, -1);
-  DiffusionSum added = sumDipole(rays, receivers, settings, 0);
-  const DiffusionSum second = sumDipole(rays, receivers, settings, 1);
+  const DiffusionSum both = sumDipole(rays, receivers, settings);
+  DiffusionSum added = sumDipole(rays, receivers, settings, {.light = 0});
+  const DiffusionSum second = sumDipole(rays, receivers, settings, {.light = 1});
   for (size_t i = 0; i < added.radiosity.size(); ++i) added.radiosity[i] += second.radiosity[i];
   EXPECT_LT(test::relativeError(both, added, receivers), 0.006);
   EXPECT_GT(test::relativeError(both, second, receivers), 0.1);
@@ -167,9 +167,9 @@ TEST(Dipole, PointLightFallsWithTheSquareOfTheDistance) {
   const RayScene a(point), b(parallel);
   const CameraReceivers receivers = findReceivers(a, 16, 16);
   const RenderSettings settings = picture(16, 0.003);
-  EXPECT_LT(test::relativeError(sumDipole(a, receivers, settings, -1), sumDipole(b, receivers, settings, -1),
-                                receivers),
-            0.004);
+  EXPECT_LT(
+      test::relativeError(sumDipole(a, receivers, settings), sumDipole(b, receivers, settings), receivers),
+      0.004);
 }
 
 TEST(Dipole, AnObjectInFrontOfTheLightShadows) {
@@ -199,7 +199,7 @@ TEST(Dipole, EachObjectKeepsItsOwnLight) {
   scene.objects.push_back(second);
   const RayScene rays(scene);
   const CameraReceivers receivers = findReceivers(rays, 24, 24);
-  const DiffusionSum sum = sumDipole(rays, receivers, picture(24), -1);
+  const DiffusionSum sum = sumDipole(rays, receivers, picture(24));
   double first = 0, behind = 0;
   for (size_t i = 0; i < sum.radiosity.size(); ++i)
     (receivers.receivers[i].hit.object == 0 ? first : behind) += sum.radiosity[i].y;

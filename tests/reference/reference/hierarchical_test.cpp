@@ -21,10 +21,10 @@ TEST_P(Hierarchical, AgreesWithTheDirectSum) {
   const RayScene rays(test::litScene(how.model, how.material, how.size, 140));
   const CameraReceivers receivers = findReceivers(rays, 24, 24);
   RenderSettings settings = test::picture(24, 0.004);
-  const DiffusionSum direct = sumDipole(rays, receivers, settings, -1);
+  const DiffusionSum direct = sumDipole(rays, receivers, settings);
   settings.method = Method::kHierarchical;
   settings.seed = 5;
-  const DiffusionSum tree = sumHierarchical(rays, receivers, settings, -1);
+  const DiffusionSum tree = sumHierarchical(rays, receivers, settings);
   EXPECT_LT(test::relativeError(tree, direct, receivers), 0.01);
   EXPECT_LE(tree.samples, 4u * 1024 * 1024);
 }

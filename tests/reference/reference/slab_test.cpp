@@ -143,15 +143,18 @@ TEST(Slab, EmptyMediumLetsAllThrough) {
 
 TEST(Slab, RingsAddUpToTheTotal) {
   SlabSettings settings = slabOf(Rgb(2), Rgb(0.5), 0.2, 1.0, 3, 60'000);
-  settings.radialBins = 400;
-  settings.radialStep = 0.1;
+  for (int i = 0; i <= 400; ++i) settings.ringEdges.push_back(0.1 * i);
   const SlabResult r = simulateSlab(settings);
-  Rgb reflected(0), transmitted(0);
+  Rgb reflected(0), once(0), transmitted(0);
   for (size_t i = 0; i < r.radialReflectance.size(); ++i) {
     const double area = std::numbers::pi * 0.01 * double(2 * i + 1);
     reflected += r.radialReflectance[i].value * area;
+    once += r.radialReflectanceOnce[i].value * area;
     transmitted += r.radialTransmittance[i].value * area;
   }
+  EXPECT_NEAR(once.y, r.reflectance_once.value.y, 1e-4);
+  EXPECT_GT(once.y, 0.1 * reflected.y);
+  EXPECT_LT(once.y, 0.9 * reflected.y);
   EXPECT_NEAR(reflected.y, r.diffuse_reflectance.value.y, 1e-4);
   EXPECT_NEAR(transmitted.y, r.total_transmittance.value.y - r.unscattered_transmittance.value.y, 1e-4);
 }
@@ -186,7 +189,8 @@ TEST(Slab, RefusesBadSettings) {
   refused([](SlabSettings& s) { s.incidenceDegrees = 90; });
   refused([](SlabSettings& s) { s.photons = 0; });
   refused([](SlabSettings& s) { s.medium.eta = 0.9; });
-  refused([](SlabSettings& s) { s.radialBins = 3; });
+  refused([](SlabSettings& s) { s.ringEdges = {1, 1}; });
+  refused([](SlabSettings& s) { s.ringEdges = {1}; });
 }
 
 }  // namespace

@@ -134,7 +134,14 @@ TEST(NormalizedDiffusion, ShapeIsAsPublished) {
   EXPECT_NEAR(makeNormalizedDiffusion(m)->Rd(r).x, expected, 2e-3 * expected);
 }
 
-TEST(MakeProfile, TabulatedNeedsMeasurement) {}
+TEST(MakeProfile, TabulatedNeedsAMaker) {
+  const Coefficients m{.sigma_s = Rgb(1), .sigma_a = Rgb(1), .g = 0, .eta = 1.4};
+  EXPECT_THROW(makeProfile({}, {ProfileKind::kTabulated, m, ProfileOrders::kAll}), Error);
+  const ProfileMaker maker = [](const ProfileRequest& request, const Progress&) {
+    return makeDipole(request.medium);
+  };
+  EXPECT_EQ(makeProfile(maker, {ProfileKind::kTabulated, m, ProfileOrders::kAll})->P(0), makeDipole(m)->P(0));
+}
 
 }  // namespace
 }  // namespace lychnite

@@ -87,8 +87,8 @@ TEST(ProfileTable, AMediumThatDoesNotScatterIsDarkEverywhere) {
 }
 
 TEST(ProfileNames, RoundTripAndSuggest) {
-  for (ProfileKind kind :
-       {ProfileKind::kDipole, ProfileKind::kBetterDipole, ProfileKind::kNormalizedDiffusion})
+  for (ProfileKind kind : {ProfileKind::kDipole, ProfileKind::kBetterDipole,
+                           ProfileKind::kNormalizedDiffusion, ProfileKind::kTabulated})
     EXPECT_EQ(parseProfileKind(profileName(kind), ""), kind);
   try {
     parseProfileKind("dipol", "--profile");
