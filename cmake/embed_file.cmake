@@ -5,4 +5,6 @@ file(READ ${INPUT} hex HEX)
 string(REGEX REPLACE "([0-9a-f][0-9a-f])" "\\\\x\\1" escaped "${hex}")
 file(WRITE ${OUTPUT} "extern const char ${NAME}Bytes[];
 const char ${NAME}Bytes[] = \"${escaped}\";
+extern const unsigned long ${NAME}Size;
+const unsigned long ${NAME}Size = sizeof ${NAME}Bytes - 1;
 ")

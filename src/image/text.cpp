@@ -11,6 +11,7 @@
 
 // Made by the build from DejaVuSans.ttf (embed_file.cmake).
 extern const char lychniteFontBytes[];
+extern const unsigned long lychniteFontSize;
 
 namespace lychnite {
 namespace {
@@ -111,6 +112,10 @@ void drawText(Image& image, const std::string& text, double x, double y, double 
 
 double textWidth(const std::string& text, double pixelHeight) {
   return layOut(text, pixelHeight).width;
+}
+
+std::string_view labelFont() {
+  return {lychniteFontBytes, lychniteFontSize};
 }
 
 }  // namespace lychnite

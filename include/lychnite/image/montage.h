@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "lychnite/image/image.h"
 #include "lychnite/image/tone_map.h"
@@ -23,6 +24,8 @@ Image montage(std::span<const Panel> panels, const ToneMapping& toneMapping, int
 /// = left end of the baseline in pixels from the top left, `pixelHeight` = the font size (em) in pixels.
 void drawText(Image& image, const std::string& text, double x, double y, double pixelHeight,
               const glm::vec3& linearColour);
+/// The font of drawText, a TrueType file, for front ends that draw text themselves.
+std::string_view labelFont();
 /// How far drawText advances, in pixels.
 double textWidth(const std::string& text, double pixelHeight);
 
