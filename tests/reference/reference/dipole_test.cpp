@@ -223,6 +223,21 @@ TEST(Dipole, StopsWhenInterrupted) {
   EXPECT_EQ(calls, 3);
 }
 
+TEST(Dipole, WarnsOnlyWhenItStopsAboveItsTolerance) {
+  const Scene scene = litScene("stone", "marble", 20, 40);
+  for (const double tolerance : {1e-5, 0.02}) {
+    RenderSettings settings = picture(3, tolerance);
+    settings.components = {.multiple = true, .single = false, .surface = false};
+    int warnings = 0;
+    const Image image = renderReference(scene, settings, {}, [&](LogLevel level, std::string_view) {
+      warnings += level == LogLevel::kWarning;
+    });
+    const bool above = std::stod(image.metadata.at("estimated_error")) > tolerance;
+    EXPECT_EQ(warnings, above ? 1 : 0);
+    EXPECT_EQ(above, tolerance < 1e-3);
+  }
+}
+
 TEST(Dipole, PictureRecordsHowItWasMade) {
   RenderSettings settings = picture(20);
   settings.components = {.multiple = true, .single = false, .surface = false};
