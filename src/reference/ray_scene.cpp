@@ -2,6 +2,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -24,6 +25,15 @@ RayLight lightInUnits(const Light& light, const glm::dvec3& origin, double unit)
     result.power = point.intensity / (unit * unit);
   }
   return result;
+}
+
+constexpr double kSameShape = 1e-7;  // scene units: what rounding may move
+
+/// Centre and length of the scene's unit, mm.
+Sphere sceneUnits(const Scene& scene) {
+  const bool anyTranslucent = std::any_of(scene.objects.begin(), scene.objects.end(),
+                                          [](const Object& object) { return !object.material.opaque; });
+  return boundingSphere(scene, anyTranslucent);
 }
 
 RayMesh meshInUnits(const Object& object, const glm::dvec3& origin, double unit) {
@@ -114,11 +124,9 @@ struct RayScene::Impl {
 };
 
 RayScene::RayScene(const Scene& scene) : scene_(scene), impl_(std::make_unique<Impl>()) {
-  bool anyTranslucent = false;
   size_t translucent = 0;
   for (const Object& object : scene_.objects) translucent += object.material.opaque ? 0 : 1;
-  anyTranslucent = translucent > 0;
-  const Sphere bounds = boundingSphere(scene_, anyTranslucent);
+  const Sphere bounds = sceneUnits(scene_);
   unit_ = bounds.radius;
   origin_ = bounds.centre;
   for (const Object& object : scene_.objects) meshes_.push_back(meshInUnits(object, origin_, unit_));
@@ -153,6 +161,26 @@ RayScene::RayScene(const Scene& scene) : scene_(scene), impl_(std::make_unique<I
 }
 
 RayScene::~RayScene() = default;
+
+bool RayScene::adopt(const Scene& scene) {
+  const Sphere bounds = sceneUnits(scene);
+  if (scene.objects.size() != scene_.objects.size() || !(bounds.radius > 0)) return false;
+  for (size_t i = 0; i < scene.objects.size(); ++i) {
+    const Object &now = scene_.objects[i], &next = scene.objects[i];
+    const glm::dvec3 moved = toUnits(now.position) - (next.position - bounds.centre) / bounds.radius;
+    if (now.mesh != next.mesh || now.material.opaque != next.material.opaque ||
+        now.rotation != next.rotation ||
+        std::abs(now.size / unit_ - next.size / bounds.radius) > kSameShape ||
+        glm::length(moved) > kSameShape)
+      return false;
+  }
+  scene_ = scene;
+  unit_ = bounds.radius;
+  origin_ = bounds.centre;
+  lights_.clear();
+  for (const Light& light : scene_.lights) lights_.push_back(lightInUnits(light, origin_, unit_));
+  return true;
+}
 
 CameraFrame RayScene::camera(int width, int height) const {
   CameraFrame frame = cameraFrame(scene_, width, height);

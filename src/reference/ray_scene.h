@@ -60,6 +60,10 @@ class RayScene {
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;
 
+  /// Takes on another scene whose shapes are the same numbers in scene units: only lights, materials, the
+  /// camera or the size of everything differ. False, and nothing is changed, when they are not.
+  bool adopt(const Scene& scene);
+
   const Scene& scene() const { return scene_; }
   double unit() const { return unit_; }          ///< mm per scene unit
   glm::dvec3 origin() const { return origin_; }  ///< mm

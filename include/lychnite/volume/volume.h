@@ -1,0 +1,78 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "lychnite/base/progress.h"
+#include "lychnite/image/image.h"
+#include "lychnite/scene/scene.h"
+#include "lychnite/scene/settings.h"
+
+namespace lychnite {
+
+/// How the light inside is computed (docs/volume.md).
+struct VolumeSettings {
+  int cells = 64;           ///< along each object's longest side, 8..192
+  int collisions = 3;       ///< of each photon, traced before the diffusion equation takes over, 1..64
+  int photons = 1 << 17;    ///< starting points on each object's surface, lit or not, in one pass, 1024..2^24
+  double tolerance = 0.01;  ///< relative residual of the diffusion solve, in (0, 1)
+  uint64_t seed = 1;
+  bool operator==(const VolumeSettings&) const = default;
+};
+
+/// What the last update() did and cost.
+struct VolumeStats {
+  double geometryMs = 0, sourceMs = 0, solveMs = 0, exchangeMs = 0;  ///< 0 for what was kept
+  size_t cells = 0, nodes = 0, samples = 0, memoryBytes = 0;         ///< of all objects
+  int passes = 0;                                                    ///< of photons in the picture
+  int iterations = 0;                                                ///< of the solver, all lights and rounds
+  double photons = 0, flights = 0, rays = 0;  ///< of the last pass, lights that were traced again
+  /// Shares of the light that enters, all lights and objects, per channel: leaves after scattering, absorbed,
+  /// leaves unscattered, lost in holes and on opaque bodies inside. 1 together up to noise and the residual.
+  Rgb left{0}, absorbed{0}, unscattered{0}, lost{0};
+};
+
+/// The light inside closed objects: photons for the first collisions, the diffusion equation on a grid of
+/// cells for the rest. Keeps what stays valid from scene to scene: the geometry while shapes stay, traced
+/// light while lights, materials and sizes stay, solutions as first guesses; lights' intensities and colours
+/// cost nothing. Deterministic: same calls, same result, on any number of threads. Not for several threads at
+/// once. Work runs on the calling TBB arena.
+class VolumeSolver {
+ public:
+  VolumeSolver();
+  ~VolumeSolver();
+  VolumeSolver(VolumeSolver&&) noexcept;
+  VolumeSolver& operator=(VolumeSolver&&) noexcept;
+
+  /// "" when every translucent object of the scene has an inside; else which one has none and why (open, or
+  /// turned inside out in part). Cheap for meshes seen before.
+  std::string obstacle(const Scene& scene);
+
+  /// Solves for a scene whose obstacle() is "". Throws Error for what validate() refuses or out-of-range
+  /// settings, Interrupted.
+  void update(const Scene& scene, const VolumeSettings& settings, const Progress& progress = {});
+
+  /// One more pass of photons over all lights: the noise of the traced part falls with the root of the
+  /// passes.
+  void refine(const Progress& progress = {});
+
+  /// Which orders of scattering a radiosity holds.
+  enum class Orders { kAll, kFirst, kMultiple };
+
+  /// Radiosity of an object (translucent) at its mesh's vertices, from the last update, irradiance units.
+  std::vector<glm::vec3> vertexRadiosity(int object, Orders orders) const;
+
+  /// The picture of the last update: settings' size, components, aovs, seed; conventions of
+  /// renderReference(). `multiple` is order two and up; "radiosity" all orders.
+  Image picture(const RenderSettings& settings, const Progress& progress = {}) const;
+
+  const VolumeStats& stats() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace lychnite

@@ -1,0 +1,37 @@
+#include "volume/body.h"
+
+#include <chrono>
+
+namespace lychnite::volume {
+
+namespace {
+
+Coefficients reducedOf(const Coefficients& medium) {
+  Coefficients result = medium;
+  result.sigma_s = medium.sigma_sp();
+  result.g = 0;
+  return result;
+}
+
+}  // namespace
+
+Shape::Shape(std::shared_ptr<const Mesh> source, int cells)
+    : mesh(std::move(source)),
+      local(*mesh),
+      undefined(undefinedInside(local)),
+      grid(local, cells),
+      surface(local, grid) {}
+
+Body::Body(std::shared_ptr<const Shape> which, const RayScene& rays, int object, bool alone)
+    : shape(std::move(which)),
+      position(rays.toUnits(rays.scene().objects[size_t(object)].position)),
+      turnBack(glm::inverse(glm::quat(rays.scene().objects[size_t(object)].rotation))),
+      size(float(rays.scene().objects[size_t(object)].size / rays.unit())),
+      medium(rays.medium(object)),
+      reduced(reducedOf(rays.medium(object))),
+      system(shape->grid, shape->surface,
+             DiffusionRgb(rays.scene().objects[size_t(object)].material.medium.scaled(
+                 1 / rays.scene().objects[size_t(object)].size))),
+      trustClear(alone) {}
+
+}  // namespace lychnite::volume

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <glm/gtc/quaternion.hpp>
+#include <memory>
+
+#include "reference/ray_scene.h"
+#include "reference/transport.h"
+#include "volume/diffusion.h"
+
+namespace lychnite::volume {
+
+/// All that depends on a mesh and the number of cells only; shared by all objects and scenes that show it.
+struct Shape {
+  Shape(std::shared_ptr<const Mesh> source, int cells);
+  std::shared_ptr<const Mesh> mesh;
+  LocalMesh local;
+  double undefined;  ///< see undefinedInside()
+  Grid grid;
+  Surface surface;
+  double seconds = 0;  ///< it took
+  size_t memoryBytes() const { return grid.memoryBytes() + surface.memoryBytes(); }
+};
+
+/// A translucent object of a scene: a shape at its place, with its medium.
+struct Body {
+  Body(std::shared_ptr<const Shape> which, const RayScene& rays, int object, bool alone);
+
+  glm::vec3 toLocal(const glm::vec3& p) const { return (turnBack * (p - position)) / size; }
+  /// Distance that light at p is surely in this medium, scene units.
+  float clear(const glm::vec3& p) const { return trustClear ? shape->grid.clear(toLocal(p)) * size : 0; }
+
+  std::shared_ptr<const Shape> shape;
+  glm::vec3 position{0};  ///< scene units
+  glm::quat turnBack{1, 0, 0, 0};
+  float size = 1;             ///< longest side, scene units
+  transport::Medium medium;   ///< per scene unit
+  transport::Medium reduced;  ///< isotropic with sigma_sp, per scene unit
+  DiffusionSystem system;     ///< local units
+  bool trustClear = true;     ///< nothing else can be inside
+};
+
+}  // namespace lychnite::volume

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "lychnite/optics/coefficients.h"
+#include "volume/surface.h"
+
+namespace lychnite::volume {
+
+/// One channel's diffusion constants in any one unit of length (docs/volume.md): -D phi'' + sigma_a phi = Q
+/// with Grosjean's D (d'Eon & Irving 2011 eq. 17), and the Robin boundary's zb = 2 A D with the exact A
+/// (ibid. eq. 9).
+struct Diffusion {
+  double D = 1, sigma_a = 0, zb = 0;
+  double k = 0;  ///< sqrt(sigma_a / D), at least 1e-3
+
+  Diffusion() = default;
+  Diffusion(double sigma_sp, double absorption, double eta);
+
+  // Under a plane surface: u(z) = sinh(kz)/k + zb cosh(kz) is the fluence of light that diffuses out of it,
+  // v(z) = sinh(kz)/k that of light kept from it at z = 0.
+
+  /// 1 / u(d): flux out of the surface per unit of D phi at depth d.
+  double perFluence(double d) const { return 2 * std::exp(-k * d) / scaledU(d); }
+  /// v(d - z) / u(d): share of a source at depth z < d that leaves through the surface.
+  double leaving(double z, double d) const {
+    return z < d ? std::exp(-k * z) * -std::expm1(-2 * k * (d - z)) / (k * scaledU(d)) : 0;
+  }
+  /// u(z) / u(d): share of it that reaches depth d; what is missing is absorbed on the way.
+  double staying(double z, double d) const {
+    return z < d ? std::exp(-k * (d - z)) * scaledU(z) / scaledU(d) : 1;
+  }
+
+ private:
+  /// 2 exp(-kz) u(z).
+  double scaledU(double z) const {
+    const double e = std::expm1(-2 * k * z);
+    return -e / k + zb * (2 + e);
+  }
+};
+
+/// The three channels of an object's medium, reduced coefficients in local units.
+struct DiffusionRgb {
+  DiffusionRgb() = default;
+  DiffusionRgb(const Coefficients& local);
+  Diffusion channel[3];
+};
+
+/// Four lanes, three of them channels.
+typedef float Lanes __attribute__((vector_size(16)));
+
+/// The diffusion equation on a grid: for each channel, D sum over links of g (phi - phi') + (sigma_a V + sum
+/// over samples of a D / u(d)) phi = Q. Rebuilt for a new medium or size, solved for each light.
+class DiffusionSystem {
+ public:
+  DiffusionSystem(const Grid& grid, const Surface& surface, const DiffusionRgb& medium);
+
+  struct Report {
+    int iterations = 0;
+    double residual = 0;  ///< |Q - A phi| / |Q|, largest of the channels
+  };
+  /// Conjugate gradients for all channels at once, preconditioned by the diagonal, from the `phi` given
+  /// (empty for 0). Sums are taken in fixed blocks: the same bits on any number of threads.
+  Report solve(const std::vector<Lanes>& Q, std::vector<Lanes>& phi, double tolerance) const;
+
+  /// Flux that leaves at each node: sum over its samples of a phi D / u(d).
+  void exits(const std::vector<Lanes>& phi, std::vector<Lanes>& nodes) const;
+  /// Power absorbed in the cells: sum of sigma_a V phi.
+  Rgb absorbed(const std::vector<Lanes>& phi) const;
+  const DiffusionRgb& medium() const { return medium_; }
+  size_t memoryBytes() const { return (diagonal_.capacity() + exit_.capacity()) * sizeof(Lanes); }
+
+ private:
+  void multiply(const std::vector<Lanes>& x, std::vector<Lanes>& y, std::vector<Lanes>& dots) const;
+
+  const Grid& grid_;
+  const Surface& surface_;
+  DiffusionRgb medium_;
+  Lanes D_;
+  std::vector<Lanes> exit_;      ///< a / u(d) of each sample
+  std::vector<Lanes> diagonal_;  ///< of the matrix over D
+};
+
+}  // namespace lychnite::volume

@@ -1,0 +1,84 @@
+#include "volume/gather.h"
+
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace lychnite::volume {
+
+namespace {
+
+constexpr float kWidth = 0.5f;    // standard deviation of the kernel, in voxels
+constexpr float kFacing = 0.05f;  // cosine of normals below which nodes are not of one surface
+constexpr float kLeast = 1e-12f;
+
+bool linked(const Grid& grid, uint32_t a, uint32_t b) {
+  if (a == b) return true;
+  for (auto* link = grid.linksBegin(a); link != grid.linksEnd(a); ++link)
+    if (link->to == b) return true;
+  return false;
+}
+
+}  // namespace
+
+void Gather::weigh(const Shape& shape, const glm::vec3& p, const glm::vec3& normal, uint32_t cell,
+                   std::vector<Weight>& weights) {
+  weights.clear();
+  const auto& nodes = shape.surface.nodes();
+  const float perVariance = 0.5f / float(kWidth * kWidth * shape.grid.side() * shape.grid.side());
+  float sum = 0;
+  shape.surface.around(p, [&](uint32_t n) {
+    const auto& node = nodes[n];
+    if (node.cell == Grid::kNone) return;
+    const float facing = glm::dot(node.normal, normal);
+    if (facing < kFacing) return;
+    const glm::vec3 way = node.position - p;
+    const float x = glm::dot(way, way) * perVariance;
+    if (x > 12 || (cell != Grid::kNone && !linked(shape.grid, cell, node.cell))) return;
+    const float weight = facing * facing * std::exp(-x);
+    sum += weight * node.area;
+    weights.push_back({n, weight});
+  });
+  for (Weight& w : weights) w.weight /= std::fmax(sum, kLeast);
+}
+
+Gather::Gather(const Shape& shape) {
+  const Mesh& mesh = *shape.mesh;
+  std::vector<uint32_t> cell(mesh.positions.size(), Grid::kNone);
+  const auto& surface = shape.surface;
+  for (uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int c = 0; c < 3; ++c) {
+      uint32_t& at = cell[mesh.triangles[t][c]];
+      if (at == Grid::kNone)
+        at = surface.samples()[surface.sampleAt(t, c == 1 ? 1.0f : 0.0f, c == 2 ? 1.0f : 0.0f)].cell;
+    }
+  constexpr size_t kBlock = 512;
+  const size_t count = cell.size(), blocks = (count + kBlock - 1) / kBlock;
+  std::vector<std::vector<Weight>> parts(blocks);
+  std::vector<uint32_t> counts(count);
+  tbb::parallel_for(size_t(0), blocks, [&](size_t b) {
+    std::vector<Weight> weights;
+    for (size_t i = b * kBlock; i < std::min(count, (b + 1) * kBlock); ++i) {
+      weigh(shape, glm::vec3(shape.local.positions[i]), mesh.normals[i], cell[i], weights);
+      counts[i] = uint32_t(weights.size());
+      parts[b].insert(parts[b].end(), weights.begin(), weights.end());
+    }
+  });
+  first_.push_back(0);
+  for (const uint32_t n : counts) first_.push_back(first_.back() + n);
+  weights_.reserve(first_.back());
+  for (const auto& part : parts) weights_.insert(weights_.end(), part.begin(), part.end());
+}
+
+std::vector<glm::vec3> Gather::vertices(const std::vector<Lanes>& flux) const {
+  std::vector<glm::vec3> result(first_.size() - 1);
+  tbb::parallel_for(size_t(0), result.size(), [&](size_t i) {
+    Lanes sum{0, 0, 0, 0};
+    for (uint32_t w = first_[i]; w < first_[i + 1]; ++w) sum += weights_[w].weight * flux[weights_[w].node];
+    result[i] = {sum[0], sum[1], sum[2]};
+  });
+  return result;
+}
+
+}  // namespace lychnite::volume

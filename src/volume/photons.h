@@ -1,0 +1,100 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <vector>
+
+#include "reference/ray_scene.h"
+#include "reference/transport.h"
+#include "volume/body.h"
+
+namespace lychnite::volume {
+
+/// Where light ends that was traced, in one body: flux per node and per cell. Scene units.
+struct Deposits {
+  std::vector<Lanes> first;   ///< leaves at each node after one collision
+  std::vector<Lanes> later;   ///< after two or more, what the exit layer sends out at once included
+  std::vector<Lanes> source;  ///< goes on in each cell as a source of the diffusion equation
+  Deposits() = default;
+  explicit Deposits(const Body& body);
+  Deposits& operator+=(const Deposits& other);
+  void scale(float factor);
+};
+
+/// Sums of flux: where traced light went.
+struct Tally {
+  Rgb arrived{0};      ///< at surfaces, straight from the light
+  Rgb entered{0};      ///< of it, and again after leaving unscattered
+  Rgb unscattered{0};  ///< left the body it was in without a collision
+  Rgb left{0};         ///< with one collision or more, exit layer included
+  Rgb absorbed{0};     ///< at collisions and in the exit layer
+  Rgb source{0};       ///< handed over to the diffusion equation
+  Rgb lost{0};         ///< on opaque bodies inside, through holes, beyond the last mirroring
+  double flights = 0, rays = 0;
+  Tally& operator+=(const Tally& other);
+};
+
+/// The bodies and how light is followed in them.
+struct World {
+  const RayScene* rays = nullptr;
+  std::vector<std::unique_ptr<Body>> bodies;  ///< one an object; null for opaque ones
+};
+
+/// What a photon carries, see transport::PathWeight, of which this is the form for forced collisions: flights
+/// never leave; what would have left is deposited in expectation.
+struct Photon {
+  glm::vec3 position{0}, direction{0};
+  glm::vec3 flux{0}, density{1};
+  int channel = 0;
+  int object = -1;     ///< -1 outside
+  int order = 0;       ///< collisions so far
+  int collisions = 1;  ///< still to be traced
+  int branch = 0;      ///< generations of branches off the first path
+};
+
+/// Follows photons one after the other; deterministic for the random numbers given.
+class Tracer {
+ public:
+  struct Record {
+    enum Kind : uint8_t { kFirst, kLater, kSource };
+    uint32_t index;
+    uint16_t object;
+    Kind kind;
+    glm::vec3 flux;
+  };
+  Tracer(const World& world, std::vector<Record>& records) : world_(world), records_(records) {}
+
+  /// Light of `flux` that travels along `direction` and meets the front of a surface. `u` are the numbers in
+  /// [0, 1) of its first flight and first scattering, `order` the collisions that it has behind it,
+  /// `collisions` how many more are traced before the diffusion equation takes over, at least 1.
+  void arrive(const RayHit& hit, const glm::vec3& direction, const glm::vec3& flux, int channel,
+              const glm::vec3& u, transport::Rng rng, int order, int collisions);
+  const Tally& tally() const { return tally_; }
+
+ private:
+  void enter(Photon photon, const RayHit& hit);
+  void fly(Photon photon);
+  bool advance(Photon& photon, const transport::Medium& medium, float u);
+  enum class Outcome { kCollided, kGoesOn, kGone };
+  Outcome meet(Photon& photon, const transport::Medium& medium, const RayHit& hit, float& u);
+  bool collide(Photon& photon, const transport::Medium& medium, float distance, const glm::vec3& total);
+  void leave(const Photon& photon, const RayHit& hit, const glm::vec3& flux, float share);
+  void outside(Photon photon);
+  void handOver(const Photon& photon);
+  void separateFirst(const Photon& photon);
+  const Body& body(const Photon& photon) const { return *world_.bodies[size_t(photon.object)]; }
+
+  const World& world_;
+  std::vector<Record>& records_;
+  transport::Rng rng_{0, 0};
+  Tally tally_;
+  std::vector<Photon> waiting_;  ///< branches outside
+  glm::vec3 firstNumbers_{0};
+  int shells_ = 1;
+};
+
+/// Adds records to the deposits of their bodies, in order.
+void collect(const std::vector<Tracer::Record>& records, std::vector<Deposits>& deposits);
+
+}  // namespace lychnite::volume

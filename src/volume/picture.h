@@ -1,0 +1,20 @@
+#pragma once
+
+#include "lychnite/base/progress.h"
+#include "lychnite/image/image.h"
+#include "lychnite/scene/settings.h"
+#include "volume/photons.h"
+
+namespace lychnite::volume {
+
+/// Flux that leaves at the nodes of each body, times power over the square of the body's size: over the
+/// nodes' areas it is radiosity.
+struct NodeLight {
+  const std::vector<std::vector<Lanes>>& all;
+  const std::vector<std::vector<Lanes>>& multiple;
+};
+
+Image volumePicture(const RayScene& rays, const World& world, const NodeLight& light,
+                    const RenderSettings& settings, const Progress& progress);
+
+}  // namespace lychnite::volume
