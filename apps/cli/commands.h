@@ -10,6 +10,7 @@ using Action = std::function<int()>;
 
 /// Each adds its subcommand with flags and help, and sets `action` when it is chosen.
 void addRender(CLI::App& app, Action& action);
+void addView(CLI::App& app, Action& action);
 void addCompare(CLI::App& app, Action& action);
 void addSlab(CLI::App& app, Action& action);
 void addInfo(CLI::App& app, Action& action);

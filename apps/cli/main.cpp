@@ -78,6 +78,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   Action action;
   addRender(app, action);
+  addView(app, action);
   addCompare(app, action);
   addSlab(app, action);
   addInfo(app, action);

@@ -1,0 +1,163 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "controls.h"
+#include "lychnite/base/units.h"
+
+namespace lychnite::viewer {
+namespace {
+
+const ImU32 kInk = IM_COL32(178, 180, 184, 255), kFaint = IM_COL32(128, 130, 134, 255);
+
+void text(ImDrawList& draw, glm::dvec2 at, ImU32 colour, const std::string& words) {
+  draw.AddText({float(at.x) + 1, float(at.y) + 1}, IM_COL32(0, 0, 0, 160), words.c_str());
+  draw.AddText(toIm(at), colour, words.c_str());
+}
+
+/// A point of the scene on the window; nothing behind the camera.
+std::optional<glm::dvec2> onWindow(const CameraFrame& camera, const Area& area, const glm::dvec3& point) {
+  const glm::dvec3 p = camera.project(point);
+  if (p.z <= 0) return {};
+  return area.low + glm::dvec2(p.x, p.y);
+}
+
+/// Ticks with their lengths along the side of the object's box that is nearest to the camera.
+void drawRuler(PanelContext& context, ImDrawList& draw, const Area& area) {
+  const Scene& scene = context.session.state().scene;
+  const Object& subject = scene.objects[subjectIndex(scene)];
+  const CameraFrame camera =
+      cameraFrame(scene, std::max(1, int(area.size().x)), std::max(1, int(area.size().y)));
+  const double ground = groundHeight(scene), half = subject.size / 2, step = 5 * gridSpacing(scene);
+  if (camera.position.y <= ground) return;
+  const glm::dvec3 towards = camera.position - subject.position;
+  const bool alongX = std::abs(towards.z) >= std::abs(towards.x);
+  const glm::dvec3 along =
+      alongX ? glm::dvec3(towards.z > 0 ? 1 : -1, 0, 0) : glm::dvec3(0, 0, towards.x > 0 ? -1 : 1);
+  const glm::dvec3 out =
+      alongX ? glm::dvec3(0, 0, towards.z > 0 ? 1 : -1) : glm::dvec3(towards.x > 0 ? 1 : -1, 0, 0);
+  const glm::dvec3 origin =
+      glm::dvec3(subject.position.x, ground, subject.position.z) + out * (0.62 * subject.size) - along * half;
+  const auto first = onWindow(camera, area, origin),
+             last = onWindow(camera, area, origin + along * subject.size);
+  if (!first || !last) return;
+  const float s = float(context.ui.scale());
+  draw.AddLine(toIm(*first), toIm(*last), kFaint, s);
+  for (double at = 0; at <= subject.size * 1.0001; at += step) {
+    const auto low = onWindow(camera, area, origin + along * at),
+               high = onWindow(camera, area, origin + along * at + out * (0.03 * subject.size));
+    if (!low || !high) return;
+    draw.AddLine(toIm(*low), toIm(*high), kFaint, s);
+    const std::string label = at == 0 ? "0" : formatLength(std::stod(fmt::format("{:.6g}", at)));
+    text(draw, *high + glm::dvec2(-0.5 * double(ImGui::CalcTextSize(label.c_str()).x), 2 * s), kFaint, label);
+  }
+}
+
+void drawWipe(PanelContext& context, ImDrawList& draw, const Area& area) {
+  static const char* const kNames[] = {"This scene", "Variant", "Truth (walk)", "Opened picture"};
+  const CompareView& compare = context.session.state().compare;
+  const float s = float(context.ui.scale());
+  const double x = area.low.x + compare.wipe * area.size().x;
+  const std::string left = kNames[int(compare.left)], right = kNames[int(compare.right)];
+  if (compare.mode == CompareView::Mode::kDifference) {
+    text(draw, area.low + glm::dvec2(12 * s, 10 * s), kInk,
+         fmt::format("|{} \xe2\x88\x92 {}| over the mean of the right, 0 to {:.0f} %", left, right,
+                     100 * compare.full));
+    return;
+  }
+  draw.AddLine({float(x), float(area.low.y)}, {float(x), float(area.high.y)}, IM_COL32(230, 230, 230, 150),
+               s);
+  const glm::dvec2 grip(x, area.high.y - 40 * s);
+  draw.AddCircleFilled(toIm(grip), 6 * s, IM_COL32(230, 230, 230, 210), 20);
+  context.ui.mark("wipe", {grip - glm::dvec2(6 * s), grip + glm::dvec2(6 * s)});
+  const double width = double(ImGui::CalcTextSize(left.c_str()).x);
+  text(draw, {std::max(area.low.x + 12 * s, x - width - 10 * s), area.low.y + 10 * s}, kInk, left);
+  text(draw, {x + 10 * s, area.low.y + 10 * s}, kInk, right);
+}
+
+/// The chosen light's direction, while the hand turns it.
+void drawLight(PanelContext& context, ImDrawList& draw, const Area& area) {
+  const Scene& scene = context.session.state().scene;
+  if (context.controls.light >= scene.lights.size()) return;
+  Sphere sphere = boundingSphere(scene, true);
+  if (sphere.radius == 0) sphere = boundingSphere(scene);
+  const Light& light = scene.lights[context.controls.light];
+  glm::dvec3 direction(0, 1, 0);
+  if (const auto* parallel = std::get_if<ParallelLight>(&light))
+    direction = directionFromAngles(parallel->azimuth, parallel->elevation);
+  else
+    direction = glm::normalize(std::get<PointLight>(light).position - sphere.centre);
+  const CameraFrame camera =
+      cameraFrame(scene, std::max(1, int(area.size().x)), std::max(1, int(area.size().y)));
+  const auto from = onWindow(camera, area, sphere.centre + direction * (1.25 * sphere.radius));
+  const auto to = onWindow(camera, area, sphere.centre + direction * (0.85 * sphere.radius));
+  if (!from || !to) return;
+  const float s = float(context.ui.scale());
+  draw.AddLine(toIm(*from), toIm(*to), IM_COL32(230, 180, 100, 220), 2 * s);
+  draw.AddCircleFilled(toIm(*from), 5 * s, IM_COL32(240, 190, 110, 240), 20);
+}
+
+void drawMessages(ImDrawList& draw, const Area& area, double s, const std::vector<SessionMessage>& messages) {
+  double y = area.high.y - 12 * s;
+  for (auto message = messages.rbegin(); message != messages.rend(); ++message) {
+    const ImVec2 size = ImGui::GetFont()->CalcTextSizeA(ImGui::GetFontSize(), 1e9f,
+                                                        float(area.size().x - 40 * s), message->text.c_str());
+    y -= double(size.y) + 10 * s;
+    const ImVec2 low{float(area.low.x + 12 * s), float(y)},
+        high{low.x + size.x + float(16 * s), float(y + double(size.y) + 6 * s)};
+    draw.AddRectFilled(low, high, IM_COL32(34, 34, 36, 235), float(3 * s));
+    draw.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {low.x + float(8 * s), low.y + float(3 * s)},
+                 message->problem ? IM_COL32(240, 150, 120, 255) : kInk, message->text.c_str(), nullptr,
+                 float(area.size().x - 40 * s));
+  }
+}
+
+void drawKeys(ImDrawList& draw, const Area& area, double s) {
+  static const char* const kKeys[][2] = {{"Drag", "turn the camera"},
+                                         {"Shift+drag, right drag", "turn the chosen light"},
+                                         {"Middle drag, Ctrl+drag", "pan"},
+                                         {"Wheel", "nearer, farther"},
+                                         {"F", "fit"},
+                                         {"1 to 9", "views"},
+                                         {"[  ]", "half, double size"},
+                                         {"Space", "orbit the lights"},
+                                         {"G", "ruler and grid"},
+                                         {"C, D", "wipe, difference"},
+                                         {"Ctrl+Z, Ctrl+Shift+Z", "undo, redo"},
+                                         {"Ctrl+S", "save the scene"},
+                                         {"Ctrl+P", "write a picture"},
+                                         {"H", "these keys"}};
+  const double line = double(ImGui::GetTextLineHeightWithSpacing());
+  const glm::dvec2 at = area.low + glm::dvec2(16 * s, 40 * s);
+  draw.AddRectFilled(toIm(at - glm::dvec2(10 * s)),
+                     toIm(at + glm::dvec2(360 * s, line * double(std::size(kKeys)) + 10 * s)),
+                     IM_COL32(28, 28, 30, 235), float(4 * s));
+  for (size_t i = 0; i < std::size(kKeys); ++i) {
+    text(draw, at + glm::dvec2(0, line * double(i)), kInk, kKeys[i][0]);
+    text(draw, at + glm::dvec2(180 * s, line * double(i)), kFaint, kKeys[i][1]);
+  }
+}
+
+}  // namespace
+
+void drawOverlay(PanelContext& context, const Area& area, const std::vector<SessionMessage>& messages) {
+  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+  const double s = context.ui.scale();
+  draw.PushClipRect(toIm(area.low), toIm(area.high));
+  context.ui.mark("picture", area);
+  if (!context.session.empty() && context.session.state().inspect.layer == Inspect::Layer::kPicture) {
+    const ViewState& state = context.session.state();
+    if (state.ruler && state.compare.mode != CompareView::Mode::kDifference) drawRuler(context, draw, area);
+    if (state.compare.mode != CompareView::Mode::kOff) drawWipe(context, draw, area);
+    if (context.controls.turnsLight) drawLight(context, draw, area);
+  }
+  if (context.session.empty())
+    text(draw, 0.5 * (area.low + area.high) - glm::dvec2(60 * s, 0), kFaint,
+         context.session.loading() ? "Loading..." : "Drop a model here");
+  drawMessages(draw, area, s, messages);
+  if (context.controls.showKeys) drawKeys(draw, area, s);
+  draw.PopClipRect();
+}
+
+}  // namespace lychnite::viewer

@@ -1,0 +1,225 @@
+// Sections about how the picture is made and looked at: method, comparison, what is inside.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "controls.h"
+#include "lychnite/base/units.h"
+#include "lychnite/optics/materials.h"
+
+namespace lychnite::viewer {
+namespace {
+
+const std::vector<Method>& realTimeMethods() {
+  static const std::vector<Method> methods{Method::kMatched, Method::kAdaptive, Method::kFixed};
+  return methods;
+}
+
+const std::vector<ProfileKind>& profiles() {
+  static const std::vector<ProfileKind> kinds{ProfileKind::kDipole, ProfileKind::kBetterDipole,
+                                              ProfileKind::kNormalizedDiffusion, ProfileKind::kTabulated};
+  return kinds;
+}
+
+template <class T>
+int indexOf(const std::vector<T>& list, const T& value) {
+  const auto found = std::find(list.begin(), list.end(), value);
+  return found == list.end() ? 0 : int(found - list.begin());
+}
+
+std::vector<std::string> methodNames() {
+  std::vector<std::string> names;
+  for (const Method method : realTimeMethods()) names.push_back(methodName(method));
+  return names;
+}
+
+std::vector<std::string> profileNames() {
+  std::vector<std::string> names;
+  for (const ProfileKind kind : profiles()) names.push_back(profileName(kind));
+  return names;
+}
+
+void chooseMap(Ui& ui, int& mapSize) {
+  static const std::vector<int> sizes{128, 256, 512, 1024, 2048, 4096};
+  std::vector<std::string> names;
+  for (const int size : sizes) names.push_back(fmt::format("{} x {}", size, size));
+  int index = indexOf(sizes, mapSize);
+  if (ui.choice("Map", "The light-space map: the object as the light sees it. Finer maps show finer shadows.",
+                index, names))
+    mapSize = sizes[size_t(index)];
+}
+
+void drawTone(PanelContext& context) {
+  ViewState& state = context.session.state();
+  Ui& ui = context.ui;
+  ui.slider("Exposure, stops", "Doubles or halves the brightness with each step.", state.toneMapping.exposure,
+            -8, 8, "%+.1f");
+  int curve = state.toneMapping.curve == ToneMapping::Curve::kFilmic ? 1 : 0;
+  if (ui.choice(
+          "Tone curve",
+          "sRGB shows values as they are and cuts off above white; filmic (Hable 2010) rolls off softly.",
+          curve, {"sRGB", "Filmic"}))
+    state.toneMapping.curve = curve == 1 ? ToneMapping::Curve::kFilmic : ToneMapping::Curve::kSrgb;
+  ui.colour("Background", "Radiance behind the object.", state.scene.background);
+  ui.check("Ruler and grid", "The ground's grid with its lengths. G.", state.ruler);
+}
+
+const std::vector<std::string>& sourceNames() {
+  static const std::vector<std::string> names{"This scene", "Variant", "Truth (walk)", "Opened picture"};
+  return names;
+}
+
+/// A value of the variant that is either its own or the scene's.
+template <class T>
+bool own(Ui& ui, const char* text, const char* help, std::optional<T>& value, const T& inherited) {
+  bool has = value.has_value();
+  if (ui.check(text, help, has)) value = has ? std::optional(inherited) : std::nullopt;
+  return value.has_value();
+}
+
+void drawVariant(PanelContext& context) {
+  ViewState& state = context.session.state();
+  Variant& variant = state.variant;
+  Ui& ui = context.ui;
+  ui.note("What the variant does differently:");
+  if (own(ui, "another method", "", variant.method, Method::kAdaptive)) {
+    int index = indexOf(realTimeMethods(), *variant.method);
+    if (ui.choice("Its method", "", index, methodNames())) variant.method = realTimeMethods()[size_t(index)];
+  }
+  if (own(ui, "other samples", "", variant.samples, 128))
+    ui.slider("Its samples", "", *variant.samples, 8, 128);
+  if (own(ui, "another profile", "", variant.profile, ProfileKind::kBetterDipole)) {
+    int index = indexOf(profiles(), *variant.profile);
+    if (ui.choice("Its profile", "", index, profileNames())) variant.profile = profiles()[size_t(index)];
+  }
+  const Object& subject = state.scene.objects[subjectIndex(state.scene)];
+  if (own(ui, "another material", "", variant.material, subject.material)) {
+    std::vector<std::string> names;
+    int index = 0;
+    for (const NamedCoefficients& known : materialLibrary()) {
+      if (known.name == variant.material->name) index = int(names.size());
+      names.push_back(known.name);
+    }
+    if (ui.choice("Its material", "", index, names) || variant.material->name == "custom") {
+      variant.material->name = names[size_t(index)];
+      variant.material->medium = materialLibrary()[size_t(index)].coefficients;
+    }
+  }
+  if (own(ui, "another size", "", variant.size, 5 * subject.size))
+    ui.slider("Its size, mm", "The camera keeps the object's size on the screen.", *variant.size, 0.1, 10000,
+              "%.4g", true);
+}
+
+void drawNumbers(PanelContext& context) {
+  const CompareView& compare = context.session.state().compare;
+  const bool truth =
+      compare.left == CompareView::Source::kTruth || compare.right == CompareView::Source::kTruth;
+  if (truth) {
+    const auto walk = context.view.walk();
+    if (!context.view.walkProblem().empty())
+      context.ui.note(context.view.walkProblem());
+    else if (walk)
+      context.ui.note(fmt::format("Walk: noise {:.2f} %, {:.0f} s, {:.3g} photons a pixel", 100 * walk->noise,
+                                  walk->seconds, walk->photonsPerPixel));
+    else
+      context.ui.note("The walk begins when the picture rests.");
+  }
+  if (const auto& error = context.view.error())
+    context.ui.note(fmt::format("Relative RMSE {:.1f} %, bias {:+.1f} %, SSIM {:.3f}",
+                                100 * error->relative_rmse, 100 * error->bias, error->ssim));
+  else if (!context.view.errorProblem().empty())
+    context.ui.note(context.view.errorProblem());
+  else
+    context.ui.note("The error is found when both pictures rest.");
+  Ui::help(
+      "Left against right: root mean square difference over the mean of the right picture, over its covered "
+      "pixels; "
+      "against the walk, the walk's own noise is taken out.");
+}
+
+}  // namespace
+
+void drawMethodSection(PanelContext& context) {
+  RenderSettings& settings = context.session.state().settings;
+  Ui& ui = context.ui;
+  int method = indexOf(realTimeMethods(), settings.method);
+  if (ui.choice(
+          "Method",
+          "matched: ours, samples follow the profile at the object's size. adaptive: Yao & Wang 2009. fixed: "
+          "its fixed pattern.",
+          method, methodNames()))
+    settings.method = realTimeMethods()[size_t(method)];
+  int profile = indexOf(profiles(), settings.profile);
+  if (ui.choice(
+          "Profile",
+          "How light spreads from where it enters: the dipole of Jensen et al. 2001, d'Eon's better dipole "
+          "2012, Christensen & Burley's normalized diffusion 2015, or one measured by Monte Carlo.",
+          profile, profileNames()))
+    settings.profile = profiles()[size_t(profile)];
+  if (settings.method == Method::kMatched)
+    ui.slider("Samples", "Of multiple scattering at each pixel.", settings.multipleSamples, 8, 128);
+  ui.slider("Along the ray", "Samples of single scattering along the refracted eye ray.",
+            settings.singleSamples, 1, 64);
+  chooseMap(ui, settings.mapSize);
+  ui.check("Multiple", "Light scattered more than once. M.", settings.components.multiple);
+  ImGui::SameLine();
+  ui.check("Single", "Light scattered once.", settings.components.single);
+  ImGui::SameLine();
+  ui.check("Surface", "Light mirrored by the coat.", settings.components.surface);
+  drawTone(context);
+}
+
+void drawCompareSection(PanelContext& context) {
+  CompareView& compare = context.session.state().compare;
+  int mode = int(compare.mode);
+  if (context.ui.choice(
+          "Compare",
+          "Wipe: left and right of a line that can be dragged. Difference: |left - right| in false "
+          "colour. C and D.",
+          mode, {"Off", "Wipe", "Difference"}))
+    compare.mode = CompareView::Mode(mode);
+  if (compare.mode == CompareView::Mode::kOff) return;
+  int left = int(compare.left), right = int(compare.right);
+  if (context.ui.choice("Left", "", left, sourceNames())) compare.left = CompareView::Source(left);
+  if (context.ui.choice(
+          "Right", "Truth: Monte Carlo light transport, refined on the processor while the picture rests.",
+          right, sourceNames()))
+    compare.right = CompareView::Source(right);
+  if (compare.mode == CompareView::Mode::kDifference)
+    context.ui.slider("Full scale", "The relative error that the brightest colour stands for.", compare.full,
+                      0.01, 4, "%.2f", true);
+  drawNumbers(context);
+  if (compare.left == CompareView::Source::kVariant || compare.right == CompareView::Source::kVariant)
+    drawVariant(context);
+}
+
+void drawInspectSection(PanelContext& context) {
+  ViewState& state = context.session.state();
+  int layer = int(state.inspect.layer);
+  if (context.ui.choice("Show", "The picture, or what it is made from.", layer,
+                        {"Picture", "Depth", "Normals", "Light-space map"}))
+    state.inspect.layer = Inspect::Layer(layer);
+  if (state.inspect.layer == Inspect::Layer::kMap) {
+    context.ui.slider("Of light", "", state.inspect.light, 0,
+                      std::max(0, int(state.scene.lights.size()) - 1));
+    context.ui.slider("Mip level",
+                      "Each level is half as wide as the one before; far samples read coarse levels.",
+                      state.inspect.mapLevel, 0, std::max(0, context.view.mapLevels() - 1));
+  }
+  const RenderStats* stats = context.view.stats();
+  if (!stats) return;
+  for (const RenderStats::Pass& pass : stats->passes) {
+    context.ui.label(pass.name.c_str(), "Device time of the newest frame that drew it.");
+    ImGui::Text(pass.runs > 0 ? "%.1f ms" : "kept", pass.gpuMs);
+  }
+  context.ui.note(fmt::format("{} triangles; maps {:.1f} MB, device {:.0f} MB\n{}", stats->triangles,
+                              double(stats->mapBytes) / 1e6, double(stats->gpuBytes) / 1e6, stats->device));
+  const auto& times = context.controls.frameMs;
+  if (times.empty()) return;
+  context.ui.label("Frames, ms",
+                   "Of the last frames that drew; the picture is drawn coarser when they take too long.");
+  ImGui::PlotLines("##frames", times.data(), int(times.size()), 0, nullptr, 0, 100,
+                   {0, float(40 * context.ui.scale())});
+}
+
+}  // namespace lychnite::viewer

@@ -1,0 +1,269 @@
+#include "picture_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lychnite/gpu/context.h"
+#include "technique/read_back.h"
+#include "technique/renderer_textures.h"
+
+namespace lychnite::viewer {
+namespace {
+
+constexpr double kRestAfter = 0.12;      // seconds without a change until the full resolution is drawn
+constexpr double kWalkAfter = 0.5;       // and until the walk begins
+constexpr double kMillisecondsIdle = 8;  // of a frame that draws no new picture, until one was measured
+
+/// All that a picture of the scene depends on.
+std::string pictureKey(const ViewState& state, glm::ivec2 pixels) {
+  ViewState plain;
+  plain.scene = state.scene;
+  plain.settings = state.settings;
+  return fmt::format("{}x{} {}", pixels.x, pixels.y, fingerprint(plain));
+}
+
+gpu::Texture uploaded(const Image& image, const char* label) {
+  const int width = image.width(), height = image.height();
+  std::vector<float> texels(image.pixelCount() * 4);
+  const std::vector<float>* alpha = image.has("A") ? &image.channel("A") : nullptr;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const size_t from = size_t(height - 1 - y) * size_t(width) + size_t(x);
+      const glm::vec3 rgb = image.rgb(from);
+      float* to = &texels[(size_t(y) * size_t(width) + size_t(x)) * 4];
+      to[0] = rgb.r, to[1] = rgb.g, to[2] = rgb.b, to[3] = alpha ? (*alpha)[from] : 1;
+    }
+  }
+  gpu::Texture texture({.label = label, .format = gpu::Format::kRgba32f, .width = width, .height = height});
+  texture.upload(std::span<const float>(texels));
+  return texture;
+}
+
+double meanOf(const Image& image) {
+  double sum = 0, weight = 0;
+  const std::vector<float>* alpha = image.has("A") ? &image.channel("A") : nullptr;
+  for (size_t i = 0; i < image.pixelCount(); ++i) {
+    const glm::vec3 rgb = image.rgb(i);
+    const double a = alpha ? double((*alpha)[i]) : 1;
+    sum += a * double(rgb.r + rgb.g + rgb.b) / 3;
+    weight += a;
+  }
+  return weight > 0 ? sum / weight : 1;
+}
+
+}  // namespace
+
+bool LivePicture::update(const ViewState& state, glm::ivec2 pixels, double scale, bool rest) {
+  std::string key = pictureKey(state, pixels);
+  const double wanted = rest ? 1 : scale;
+  const bool changed = key != key_;
+  if (!changed && drawn_ && drawnScale_ >= wanted) return false;
+  if (!renderer_) renderer_ = std::make_unique<Renderer>(options_);
+  RenderSettings settings = state.settings;
+  settings.aovs.clear();
+  settings.width = std::max(1, int(std::lround(pixels.x * wanted)));
+  settings.height = std::max(1, int(std::lround(pixels.y * wanted)));
+  key_ = std::move(key);
+  drawn_ = false;
+  renderer_->draw(state.scene, settings);
+  drawn_ = true;
+  drawnScale_ = wanted;
+  return true;
+}
+
+const gpu::Texture& LivePicture::texture() const {
+  return RendererTextures::picture(*renderer_);
+}
+
+void Pace::measured(double ms, double idleMs) {
+  const double perFull = std::max(ms - idleMs, 0.1) / (scale_ * scale_);
+  for (const double next : {1.0, 0.75, 0.5, 0.375, 0.25, 0.1875}) {
+    // Growing asks for more room than staying, or the scale would swing.
+    const double target = next > scale_ ? 0.8 * kTargetMs : 1.25 * kTargetMs;
+    if (idleMs + perFull * next * next > target && next > 0.1875) continue;
+    scale_ = next;
+    return;
+  }
+}
+
+PictureView::PictureView(const RendererOptions& options, int walkThreads)
+    : live_(options, "view"),
+      variant_(options, "variant"),
+      pace_(gpu::Context({.current = true}).device().software),
+      walk_(walkThreads),
+      idleMs_(kMillisecondsIdle) {}
+
+bool PictureView::compares(Source source) const {
+  return compare_.mode != CompareView::Mode::kOff && (compare_.left == source || compare_.right == source);
+}
+
+void PictureView::update(const Request& request) {
+  const ViewState& state = *request.state;
+  compare_ = state.compare;
+  const ViewState variant = compares(Source::kVariant) ? applied(state.variant, state) : ViewState{};
+  std::string key = pictureKey(state, request.pixels);
+  if (compares(Source::kVariant)) key += pictureKey(variant, request.pixels);
+  if (key != key_ || request.moving) changedAt_ = request.seconds;
+  key_ = std::move(key);
+  const bool rest = !request.moving && request.seconds - changedAt_ >= kRestAfter;
+  drew_ = live_.update(state, request.pixels, pace_.scale(), rest);
+  if (compares(Source::kVariant)) drew_ |= variant_.update(variant, request.pixels, pace_.scale(), rest);
+  const bool whole = live_.whole() && (!compares(Source::kVariant) || variant_.whole());
+  if (!rest || !whole) restedAt_ = 1e300;
+  if (rest && whole) restedAt_ = std::min(restedAt_, request.seconds);
+  updateWalk(request);
+  updateFile(request);
+  atRest_ =
+      rest && whole && !drew_ && (!compares(Source::kTruth) || walkTexture_ || !walk_.problem().empty());
+  updateError(request);
+}
+
+void PictureView::updateWalk(const Request& request) {
+  walkShown_ = compares(Source::kTruth);
+  if (!walkShown_ || request.moving || restedAt_ > request.seconds) {
+    // Anything else has the processor first, and what the walk knows is of another scene by now.
+    if (!walkShown_ || request.moving || request.seconds == changedAt_) {
+      walk_.stop();
+      walkTexture_.reset();
+      walkImage_.reset();
+    }
+    return;
+  }
+  if (request.seconds - restedAt_ < kWalkAfter) return;
+  RenderSettings settings;
+  settings.width = request.pixels.x;
+  settings.height = request.pixels.y;
+  settings.components = request.state->settings.components;
+  walk_.want(request.state->scene, settings);
+  const auto newest = walk_.newest();
+  if (!newest || newest->image == walkImage_) return;
+  walkImage_ = newest->image;
+  walkTexture_ = uploaded(*walkImage_, "walk");
+}
+
+void PictureView::updateFile(const Request& request) {
+  if (request.file == fileImage_) return;
+  fileImage_ = request.file;
+  fileTexture_.reset();
+  if (fileImage_ && fileImage_->hasRgb()) fileTexture_ = uploaded(*fileImage_, "opened picture");
+}
+
+bool PictureView::available(Source source) const {
+  return textureOf(source) != nullptr;
+}
+
+const gpu::Texture* PictureView::textureOf(Source source) const {
+  switch (source) {
+    case Source::kView:
+      return live_.ready() ? &live_.texture() : nullptr;
+    case Source::kVariant:
+      return variant_.ready() ? &variant_.texture() : nullptr;
+    case Source::kTruth:
+      return walkTexture_ ? &*walkTexture_ : nullptr;
+    case Source::kFile:
+      return fileTexture_ ? &*fileTexture_ : nullptr;
+  }
+  return nullptr;
+}
+
+std::string PictureView::keyOf(Source source) const {
+  if (source == Source::kView) return live_.key();
+  if (source == Source::kVariant) return variant_.key();
+  return fmt::format("{}", fmt::ptr(source == Source::kTruth ? walkImage_.get() : fileImage_.get()));
+}
+
+std::shared_ptr<const Image> PictureView::imageOf(Source source) const {
+  if (source == Source::kTruth) return walkImage_;
+  if (source == Source::kFile) return fileImage_;
+  const gpu::Texture& texture = *textureOf(source);
+  auto image = std::make_shared<Image>(texture.width(), texture.height());
+  readPicture(texture, *image);
+  return image;
+}
+
+/// The metrics take longer than a frame may, so they are found on another thread.
+void PictureView::updateError(const Request& request) {
+  if (measuring_.valid() && measuring_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+    const Measured done = measuring_.get();
+    errorProblem_ = done.problem;
+    meanOfRight_ = done.meanOfRight;
+    error_ = done.problem.empty() ? std::optional(done.metrics) : std::nullopt;
+  }
+  if (compare_.mode == CompareView::Mode::kOff || !atRest_) return;
+  if (!available(compare_.left) || !available(compare_.right) || measuring_.valid()) return;
+  const double exposure = request.state->toneMapping.exposure;
+  const std::string key = keyOf(compare_.left) + "|" + keyOf(compare_.right) + fmt::format("|{}", exposure);
+  if (key == measuredKey_) return;
+  measuredKey_ = key;
+  error_.reset();
+  measuring_ = std::async(
+      std::launch::async, [left = imageOf(compare_.left), right = imageOf(compare_.right), exposure] {
+        lowerThreadPriority();
+        Measured result;
+        try {
+          result.meanOfRight = meanOf(*right);
+          result.metrics =
+              compare(*left, *right, {.exposure = exposure, .useStandardError = right->hasRgb("stderr")})
+                  .together;
+        } catch (const std::exception& error) {
+          result.problem = error.what();
+        }
+        return result;
+      });
+}
+
+std::optional<Display::Layer> PictureView::layerOf(const ViewState& state) {
+  const Inspect& inspect = state.inspect;
+  if (inspect.layer == Inspect::Layer::kPicture) return {};
+  if (inspect.layer != Inspect::Layer::kMap) {
+    Display::Layer layer{.kind = inspect.layer == Inspect::Layer::kDepth ? 1 : 2,
+                         .texture = &RendererTextures::geometry(live_.renderer())};
+    const Sphere sphere = boundingSphere(state.scene);
+    const CameraFrame camera = cameraFrame(state.scene, 1, 1);
+    const double unit = state.scene.objects[subjectIndex(state.scene)].size;
+    const double middle = glm::dot(sphere.centre - camera.position, camera.forward);
+    layer.low = (middle - sphere.radius) / unit;
+    layer.high = (middle + sphere.radius) / unit;
+    return layer;
+  }
+  if (state.scene.lights.empty()) return {};
+  const size_t light = size_t(std::clamp(inspect.light, 0, int(state.scene.lights.size()) - 1));
+  const LightMapPass::Map& map =
+      RendererTextures::maps(live_.renderer()).get(subjectIndex(state.scene), light);
+  const bool flux = map.moments.has_value();
+  const gpu::Texture* texture = flux ? &*map.moments : map.cosine ? &*map.cosine : nullptr;
+  if (!texture) return {};
+  mapLevels_ = texture->levels();
+  return Display::Layer{
+      .kind = flux ? 3 : 4, .texture = texture, .level = double(std::min(inspect.mapLevel, mapLevels_ - 1))};
+}
+
+void PictureView::show(const gpu::Framebuffer& target, const gpu::Rect& area, const ViewState& state) {
+  if (!live_.ready()) return;
+  Display::Frame frame{
+      .area = area, .compare = state.compare, .meanOfRight = meanOfRight_, .toneMapping = state.toneMapping};
+  frame.left = &live_.texture();
+  if (state.compare.mode != CompareView::Mode::kOff) {
+    if (const gpu::Texture* left = textureOf(state.compare.left)) frame.left = left;
+    frame.right = textureOf(state.compare.right);
+  }
+  frame.layer = layerOf(state);
+  if (state.ruler) frame.grid = &state.scene;
+  display_.draw(target, frame);
+}
+
+void PictureView::frameTook(double ms) {
+  if (drew_)
+    pace_.measured(ms, idleMs_);
+  else
+    idleMs_ += 0.2 * (std::min(ms, 30.0) - idleMs_);
+}
+
+void PictureView::forget() {
+  live_.forget();
+  variant_.forget();
+}
+
+}  // namespace lychnite::viewer

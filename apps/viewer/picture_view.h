@@ -1,0 +1,128 @@
+#pragma once
+
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "display.h"
+#include "lychnite/app/background.h"
+#include "lychnite/app/view_state.h"
+#include "lychnite/image/metrics.h"
+#include "lychnite/technique/renderer.h"
+
+namespace lychnite::viewer {
+
+/// One picture of the real-time renderer that follows its scene: coarse while things move, whole at rest.
+class LivePicture {
+ public:
+  LivePicture(const RendererOptions& options, const char* name) : options_(options), name_(name) {}
+
+  /// Draws what changed; `rest` asks for the full resolution. True when something was drawn.
+  bool update(const ViewState& state, glm::ivec2 pixels, double scale, bool rest);
+  void forget() { *this = LivePicture(options_, name_); }
+  bool ready() const { return renderer_ && drawn_; }
+  bool whole() const { return ready() && drawnScale_ >= 1; }
+  const gpu::Texture& texture() const;
+  const Renderer& renderer() const { return *renderer_; }
+  const RenderStats& stats() const { return renderer_->stats(); }
+  /// Changes with everything that the picture shows.
+  const std::string& key() const { return key_; }
+
+ private:
+  RendererOptions options_;
+  const char* name_;
+  std::unique_ptr<Renderer> renderer_;
+  std::string key_;
+  bool drawn_ = false;
+  double drawnScale_ = 0;
+};
+
+/// Chooses the share of the full resolution at which a frame takes about `kTargetMs`.
+class Pace {
+ public:
+  static constexpr double kTargetMs = 40;
+  explicit Pace(bool software) : scale_(software ? 0.375 : 1) {}
+  double scale() const { return scale_; }
+  /// A frame that drew at scale() took `ms`, of which `idleMs` goes into frames that draw nothing.
+  void measured(double ms, double idleMs);
+
+ private:
+  double scale_;
+};
+
+/// Everything in the picture's area of the window: the scene, its variant, the walk, an opened picture.
+class PictureView {
+ public:
+  PictureView(const RendererOptions& options, int walkThreads);
+
+  struct Request {
+    const ViewState* state = nullptr;
+    glm::ivec2 pixels{0};
+    bool moving = false;  ///< a hand or an animation is on it
+    double seconds = 0;   ///< now
+    std::shared_ptr<const Image> file;
+  };
+  /// Draws what the request needs that is not there yet.
+  void update(const Request& request);
+  /// Puts it on the window. Nothing before the first update().
+  void show(const gpu::Framebuffer& target, const gpu::Rect& area, const ViewState& state);
+
+  bool ready() const { return live_.ready(); }
+  /// All that is asked for is there at full resolution (the walk: a first picture of it).
+  bool atRest() const { return atRest_; }
+  /// The last update() drew; and how long its frame took, for the pace of the next ones.
+  bool drew() const { return drew_; }
+  void frameTook(double ms);
+  /// Makes every picture anew, with new renderers.
+  void forget();
+
+  const RenderStats* stats() const { return live_.ready() ? &live_.stats() : nullptr; }
+  double scale() const { return live_.whole() ? 1 : pace_.scale(); }
+  std::optional<BackgroundWalk::Result> walk() const { return walkShown_ ? walk_.newest() : std::nullopt; }
+  std::string walkProblem() const { return walk_.problem(); }
+  /// Of left against right, when both are whole.
+  const std::optional<Metrics>& error() const { return error_; }
+  const std::string& errorProblem() const { return errorProblem_; }
+  /// Mip levels of the light-space map shown.
+  int mapLevels() const { return mapLevels_; }
+  Display& display() { return display_; }
+
+ private:
+  using Source = CompareView::Source;
+  bool compares(Source source) const;
+  void updateWalk(const Request& request);
+  void updateFile(const Request& request);
+  void updateError(const Request& request);
+  bool available(Source source) const;
+  const gpu::Texture* textureOf(Source source) const;
+  std::shared_ptr<const Image> imageOf(Source source) const;
+  std::string keyOf(Source source) const;
+  std::optional<Display::Layer> layerOf(const ViewState& state);
+
+  struct Measured {
+    Metrics metrics;
+    double meanOfRight = 1;
+    std::string problem;
+  };
+
+  Display display_;
+  LivePicture live_, variant_;
+  Pace pace_;
+  BackgroundWalk walk_;
+  bool walkShown_ = false;
+  std::optional<gpu::Texture> walkTexture_, fileTexture_;
+  std::shared_ptr<const Image> walkImage_, fileImage_;
+  CompareView compare_;
+  double changedAt_ = -1e9, restedAt_ = 1e300, idleMs_ = 8;
+  std::string key_;
+  bool atRest_ = false, drew_ = false;
+  int mapLevels_ = 1;
+  std::future<Measured> measuring_;
+  std::string measuredKey_;
+  std::optional<Metrics> error_;
+  std::string errorProblem_;
+  double meanOfRight_ = 1;
+};
+
+}  // namespace lychnite::viewer

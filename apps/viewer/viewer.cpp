@@ -1,0 +1,329 @@
+#include "viewer.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include "hands.h"
+#include "lychnite/app/profile_store.h"
+#include "lychnite/app/scene_moves.h"
+#include "lychnite/base/error.h"
+#include "lychnite/gpu/context.h"
+#include "lychnite/image/io.h"
+#include "player.h"
+#include "profile_queue.h"
+
+namespace lychnite::viewer {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr double kMessageSeconds = 6, kProblemSeconds = 20;
+constexpr double kBarHeight = 64;          // at scale 1
+constexpr int kFramesAfterInput = 3;       // a control may need some to settle
+constexpr double kPlayedFrame = 1 / 60.0;  // seconds that a frame of a script stands for
+constexpr size_t kKeptFrames = 120;
+
+std::string contents(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file)
+    throw Error(
+        {.where = path.string(), .expected = "", .found = "cannot be opened", .todo = "check the name"});
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// What the window shows, as a picture that writePng gives back as it is.
+Image windowImage(const gpu::Framebuffer& window) {
+  const std::vector<uint8_t> bytes = window.readBytes();
+  Image image(window.width(), window.height());
+  for (int y = 0; y < window.height(); ++y) {
+    for (int x = 0; x < window.width(); ++x) {
+      const uint8_t* from =
+          &bytes[(size_t(window.height() - 1 - y) * size_t(window.width()) + size_t(x)) * 4];
+      glm::vec3 rgb;
+      for (int c = 0; c < 3; ++c) rgb[c] = linearFromSrgb(float(from[c]) / 255);
+      image.setRgb(size_t(y) * size_t(window.width()) + size_t(x), rgb);
+    }
+  }
+  return image;
+}
+
+struct Layout {
+  Area picture, bar, panel;
+};
+
+Layout layoutOf(glm::ivec2 pixels, double scale, double panelWidth) {
+  const double width = std::min(panelWidth * scale, 0.5 * pixels.x),
+               bar = std::min(kBarHeight * scale, 0.3 * pixels.y);
+  const double x = std::floor(pixels.x - width), y = std::floor(pixels.y - bar);
+  return {.picture = {{0, 0}, {x, y}},
+          .bar = {{0, y}, {x, double(pixels.y)}},
+          .panel = {{x, 0}, glm::dvec2(pixels)}};
+}
+
+class Viewer {
+ public:
+  explicit Viewer(const ViewOptions& options);
+  ~Viewer();
+  void run();
+
+ private:
+  struct Shown {
+    SessionMessage message;
+    double until = 0;
+  };
+
+  void start();
+  void makePlayer();
+  double wait() const;
+  void frame(const std::vector<InputEvent>& events);
+  void handle(const std::vector<InputEvent>& events, PanelContext& context, const Area& picture);
+  void drop(const InputEvent& event);
+  void animate();
+  void takeMessages();
+  void draw(PanelContext& context, const Layout& layout);
+  void finish(Clock::time_point start);
+  void screenshot(const fs::path& path);
+  bool atRest() const;
+  bool somethingToDo(const std::vector<InputEvent>& events);
+  Preferences loadPreferences();
+
+  ViewOptions options_;
+  Session session_;
+  fs::path preferencesPath_;
+  Preferences preferences_;
+  Window window_;
+  Clock::time_point began_ = Clock::now();
+  gpu::Context context_;
+  ProfileQueue profiles_;
+  Ui ui_;
+  PictureView view_;
+  Swatches swatches_;
+  Controls controls_;
+  Hands hands_;
+  std::unique_ptr<Player> player_;
+  std::vector<Shown> shown_;
+  std::string title_;
+  double seconds_ = 0, frameSeconds_ = 1 / 60.0;
+  int framesLeft_ = kFramesAfterInput;
+  bool quit_ = false, swatchesLeft_ = true, pictureShown_ = false;
+};
+
+WindowOptions windowOptions(const ViewOptions& options, const Preferences& preferences) {
+  return {.width = options.width > 0 ? options.width : preferences.windowWidth,
+          .height = options.height > 0 ? options.height : preferences.windowHeight,
+          .scale = options.scale,
+          .debug = options.debug};
+}
+
+Viewer::Viewer(const ViewOptions& options)
+    : options_(options),
+      preferencesPath_(configFolder().empty() ? fs::path() : configFolder() / "viewer.toml"),
+      preferences_(loadPreferences()),
+      window_(windowOptions(options, preferences_)),
+      context_({.debug = options.debug, .current = true}, options.log),
+      ui_(window_),
+      view_({.useCurrentContext = true, .profiles = profiles_.maker()},
+            options.threads > 0 ? options.threads : preferences_.walkThreads),
+      swatches_({.useCurrentContext = true}) {
+  makePlayer();
+  start();
+}
+
+Viewer::~Viewer() {
+  const glm::ivec2 size = window_.windowSize();
+  const double scale = options_.scale.value_or(1);
+  if (!options_.width && !options_.height && window_.visible()) {
+    preferences_.windowWidth = std::clamp(int(size.x / scale), 320, 16384);
+    preferences_.windowHeight = std::clamp(int(size.y / scale), 240, 16384);
+  }
+  if (!session_.empty()) preferences_.ruler = session_.state().ruler;
+  writePreferences(preferences_, preferencesPath_, options_.log);
+}
+
+/// The first model is asked for before there is a window, so that both get ready together.
+Preferences Viewer::loadPreferences() {
+  session_.open(options_.model);
+  return readPreferences(preferencesPath_, session_.log());
+}
+
+void Viewer::start() {
+  session_.finishLoading();
+  const auto messages = session_.takeMessages();
+  if (session_.empty())
+    throw Error({.where = options_.model,
+                 .expected = "",
+                 .found = messages.empty() ? "nothing to show" : messages.front().text,
+                 .todo = ""});
+  for (const SessionMessage& message : messages) session_.say(message.text, message.problem);
+  if (options_.size) setSubjectSize(session_.state().scene, *options_.size);
+  session_.state().ruler = preferences_.ruler;
+  if (fs::path(options_.model).has_extension()) preferences_.addRecent(fs::absolute(options_.model).string());
+}
+
+void Viewer::makePlayer() {
+  std::vector<ScriptStep> steps;
+  std::string where = "--screenshot";
+  if (!options_.play.empty()) {
+    where = options_.play.string();
+    steps = parseScript(contents(options_.play), where);
+  }
+  if (!options_.screenshot.empty()) {
+    ScriptStep step{.kind = ScriptStep::Kind::kWaitRest};
+    steps.push_back(step);
+    step.kind = ScriptStep::Kind::kScreenshot;
+    step.text = options_.screenshot.string();
+    steps.push_back(step);
+  }
+  if (steps.empty() && options_.play.empty()) return;
+  steps.push_back({.kind = ScriptStep::Kind::kQuit});
+  PlayerHost host{.atRest = [this] { return atRest(); },
+                  .noise =
+                      [this] {
+                        const auto walk = view_.walk();
+                        return walk ? walk->noise : std::numeric_limits<double>::infinity();
+                      },
+                  .screenshot = [this](const std::string& path) { screenshot(path); },
+                  .quit = [this] { quit_ = true; }};
+  player_ = std::make_unique<Player>(std::move(steps), where, std::move(host));
+}
+
+bool Viewer::atRest() const {
+  return view_.ready() && view_.atRest() && !session_.loading() && !session_.pictures().busy() &&
+         !swatchesLeft_ && !controls_.animation.running() && !profiles_.busy();
+}
+
+double Viewer::wait() const {
+  if (player_ || framesLeft_ > 0 || controls_.animation.running() || !view_.atRest() || swatchesLeft_)
+    return 0;
+  return session_.loading() || session_.pictures().busy() ? 0.05 : 0.2;
+}
+
+void Viewer::run() {
+  while (!quit_ && !window_.closing() && !hands_.quit()) {
+    std::vector<InputEvent> events = window_.events(wait());
+    const double now = std::chrono::duration<double>(Clock::now() - began_).count();
+    if (player_) events = player_->next(window_, ui_, now);
+    const double before = seconds_;
+    seconds_ = player_ ? seconds_ + kPlayedFrame : now;
+    frameSeconds_ = std::min(seconds_ - before, 0.1);
+    if (quit_) break;
+    const bool changed = session_.poll(seconds_);
+    if (profiles_.takeArrived()) view_.forget();
+    takeMessages();
+    if (changed || somethingToDo(events)) framesLeft_ = kFramesAfterInput;
+    if (framesLeft_ <= 0 && view_.atRest() && !swatchesLeft_) continue;
+    --framesLeft_;
+    if (window_.visible()) frame(events);
+  }
+}
+
+bool Viewer::somethingToDo(const std::vector<InputEvent>& events) {
+  const bool walks = session_.state().compare.mode != CompareView::Mode::kOff;
+  return player_ || !events.empty() || controls_.animation.running() || !shown_.empty() || walks ||
+         session_.pictures().busy() || session_.loading() || profiles_.busy();
+}
+
+void Viewer::frame(const std::vector<InputEvent>& events) {
+  const auto start = Clock::now();
+  const Layout layout = layoutOf(window_.pixels(), ui_.scale(), preferences_.panelWidth);
+  PanelContext context{ui_,       session_,     controls_, view_,
+                       swatches_, preferences_, window_,   glm::ivec2(layout.picture.size())};
+  handle(events, context, layout.picture);
+  animate();
+  draw(context, layout);
+  if (!hands_.holding() && !ui_.busy() && !controls_.animation.running()) session_.commit();
+  finish(start);
+}
+
+void Viewer::handle(const std::vector<InputEvent>& events, PanelContext& context, const Area& picture) {
+  for (const InputEvent& event : events) {
+    ui_.feed(event);
+    if (event.kind == InputEvent::Kind::kDrop) drop(event);
+    if (!ui_.wantsKeys()) hands_.key(event, context);
+    hands_.mouse(event, context, picture, !ui_.wantsMouse());
+  }
+  controls_.turnsLight = hands_.turnsLight();
+}
+
+void Viewer::drop(const InputEvent& event) {
+  for (const std::string& file : event.files) {
+    session_.open(file);
+    preferences_.addRecent(fs::absolute(file).string());
+  }
+}
+
+void Viewer::animate() {
+  Animation& animation = controls_.animation;
+  if (!animation.running() || session_.empty()) return;
+  const double degrees = animation.degreesPerSecond * frameSeconds_;
+  if (animation.lights) turnLights(session_.state().scene, degrees);
+  if (animation.objects) turnObjects(session_.state().scene, degrees);
+}
+
+void Viewer::takeMessages() {
+  for (SessionMessage& message : session_.takeMessages()) {
+    logTo(options_.log, message.problem ? LogLevel::kWarning : LogLevel::kInfo, message.text);
+    shown_.push_back({message, seconds_ + (message.problem ? kProblemSeconds : kMessageSeconds)});
+  }
+  std::erase_if(shown_, [&](const Shown& shown) { return shown.until < seconds_; });
+}
+
+void Viewer::draw(PanelContext& context, const Layout& layout) {
+  ui_.begin(frameSeconds_);
+  drawPanel(context, layout.panel);
+  drawSizeBar(context, layout.bar);
+  std::vector<SessionMessage> messages;
+  for (const Shown& shown : shown_) messages.push_back(shown.message);
+  drawOverlay(context, layout.picture, messages);
+  const glm::ivec2 pixels = window_.pixels(), area(layout.picture.size());
+  gpu::Framebuffer target = gpu::Framebuffer::ofWindow(pixels.x, pixels.y);
+  if (!session_.empty() && area.x > 0 && area.y > 0)
+    view_.update({.state = &session_.state(),
+                  .pixels = area,
+                  .moving = hands_.holding() || ui_.busy() || controls_.animation.running(),
+                  .seconds = seconds_,
+                  .file = session_.picture()});
+  swatchesLeft_ = view_.atRest() && swatches_.drawOne(view_.display());
+  target.clearColour(0, {0.05f, 0.05f, 0.052f, 1});
+  view_.show(target, {0, pixels.y - area.y, area.x, area.y}, session_.state());
+  ui_.end();
+}
+
+void Viewer::finish(Clock::time_point start) {
+  window_.swap();
+  context_.checkErrors("view");
+  const double milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  view_.frameTook(milliseconds);
+  if (!pictureShown_ && view_.ready()) {
+    pictureShown_ = true;
+    const std::chrono::duration<double> passed = Clock::now() - began_;
+    logTo(options_.log, LogLevel::kInfo,
+          fmt::format("first picture {:.2f} s after the window", passed.count()));
+  }
+  if (view_.drew()) controls_.frameMs.push_back(float(milliseconds));
+  if (controls_.frameMs.size() > kKeptFrames) controls_.frameMs.erase(controls_.frameMs.begin());
+  const std::string title = session_.documentName() + " - Lychnite";
+  if (title != title_) window_.setTitle(title_ = title);
+}
+
+void Viewer::screenshot(const fs::path& path) {
+  const glm::ivec2 pixels = window_.pixels();
+  writePng(windowImage(gpu::Framebuffer::ofWindow(pixels.x, pixels.y)), path);
+}
+
+}  // namespace
+
+void runViewer(const ViewOptions& options) {
+  Viewer viewer(options);
+  viewer.run();
+}
+
+}  // namespace lychnite::viewer

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "lychnite/base/log.h"
+#include "lychnite/image/image.h"
+#include "lychnite/image/io.h"
+#include "lychnite/scene/scene.h"
+#include "lychnite/scene/settings.h"
+
+namespace lychnite {
+
+/// Puts the calling thread, and those that it starts, behind everything else that wants the processor. Best
+/// effort: nothing where the platform has no such thing.
+void lowerThreadPriority();
+
+/// The walk, refined for as long as its scene stays wanted, on threads of low priority of its own.
+class BackgroundWalk {
+ public:
+  struct Result {
+    std::shared_ptr<const Image> image;  ///< with "stderr"
+    double noise = 0;                    ///< relative, see renderReference
+    double seconds = 0;                  ///< spent on it so far
+    double photonsPerPixel = 0;
+  };
+
+  /// `threads` 0: one for up to two cores, half of them for more. Stops at a noise of `enough`.
+  explicit BackgroundWalk(int threads = 0, double enough = 0.005);
+  ~BackgroundWalk();
+  BackgroundWalk(const BackgroundWalk&) = delete;
+  BackgroundWalk& operator=(const BackgroundWalk&) = delete;
+
+  /// Starts over for another scene, settings or resolution, goes on for the same one. Never waits.
+  void want(const Scene& scene, const RenderSettings& settings);
+  /// Forgets the scene; what runs stops as soon as it can. Never waits.
+  void stop();
+  /// The newest picture of what is wanted; empty before the first and after a failure.
+  std::optional<Result> newest() const;
+  /// Why there is no picture, "" when all is well.
+  std::string problem() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// One picture to write, as `lychnite render` would.
+struct PictureRequest {
+  Scene scene;
+  RenderSettings settings;
+  PngOptions png;
+  std::filesystem::path output;
+  std::string device = "auto";
+};
+
+/// Renders and writes pictures one after the other on a thread of its own, with a device context of its own.
+class PictureWriter {
+ public:
+  /// Of the picture that was written last, or failed.
+  struct Outcome {
+    std::filesystem::path output;
+    std::string problem;  ///< "" when it was written
+  };
+
+  PictureWriter();
+  ~PictureWriter();
+  PictureWriter(const PictureWriter&) = delete;
+  PictureWriter& operator=(const PictureWriter&) = delete;
+
+  void start(PictureRequest request);
+  bool busy() const;
+  /// Share of the current picture that is done.
+  double fraction() const;
+  /// Stops the current picture, which then writes nothing, and drops those that wait.
+  void cancel();
+  /// Each outcome once.
+  std::optional<Outcome> takeOutcome();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Writes EXR or PNG by the path's extension, with the exposure among the metadata.
+void savePicture(Image& image, const std::filesystem::path& path, const PngOptions& png);
+
+}  // namespace lychnite
