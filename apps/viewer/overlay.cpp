@@ -23,34 +23,66 @@ std::optional<glm::dvec2> onWindow(const CameraFrame& camera, const Area& area, 
   return area.low + glm::dvec2(p.x, p.y);
 }
 
-/// Ticks with their lengths along the side of the object's box that is nearest to the camera.
+/// A ruler along the longest side of the object's box, which is what its size means, at the box's left or
+/// lower edge as the camera sees it.
+struct Ruler {
+  glm::dvec3 origin{0}, along{0}, out{0};  ///< in mm; the directions are unit vectors
+};
+
+std::optional<Ruler> rulerOf(const Object& subject, const CameraFrame& camera) {
+  const glm::dvec3 extent = extentOf(*subject.mesh).bounds.extent();
+  const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+  Ruler ruler;
+  ruler.along[axis] = 1;
+  ruler.along = subject.rotation * ruler.along;
+  const double upwards = glm::dot(ruler.along, camera.up), rightwards = glm::dot(ruler.along, camera.right);
+  if (upwards * upwards + rightwards * rightwards < 0.1) return {};  // seen from its end
+  const bool stands = std::abs(upwards) > std::abs(rightwards);
+  if ((stands ? upwards : rightwards) < 0) ruler.along = -ruler.along;
+  const glm::dvec3 wanted = stands ? -camera.right : -camera.up;
+  ruler.out = glm::normalize(wanted - ruler.along * glm::dot(wanted, ruler.along));
+  double reach = 0;
+  const double scale = placementOf(subject).scale;
+  for (int i = 0; i < 3; ++i) {
+    glm::dvec3 side(0);
+    side[i] = 0.5 * extent[i] * scale;
+    reach += std::abs(glm::dot(subject.rotation * side, ruler.out));
+  }
+  ruler.origin =
+      subject.position + ruler.out * (reach + 0.06 * subject.size) - ruler.along * (0.5 * subject.size);
+  return ruler;
+}
+
 void drawRuler(PanelContext& context, ImDrawList& draw, const Area& area) {
   const Scene& scene = context.session.state().scene;
   const Object& subject = scene.objects[subjectIndex(scene)];
   const CameraFrame camera =
       cameraFrame(scene, std::max(1, int(area.size().x)), std::max(1, int(area.size().y)));
-  const double ground = groundHeight(scene), half = subject.size / 2, step = 5 * gridSpacing(scene);
-  if (camera.position.y <= ground) return;
-  const glm::dvec3 towards = camera.position - subject.position;
-  const bool alongX = std::abs(towards.z) >= std::abs(towards.x);
-  const glm::dvec3 along =
-      alongX ? glm::dvec3(towards.z > 0 ? 1 : -1, 0, 0) : glm::dvec3(0, 0, towards.x > 0 ? -1 : 1);
-  const glm::dvec3 out =
-      alongX ? glm::dvec3(0, 0, towards.z > 0 ? 1 : -1) : glm::dvec3(towards.x > 0 ? 1 : -1, 0, 0);
-  const glm::dvec3 origin =
-      glm::dvec3(subject.position.x, ground, subject.position.z) + out * (0.62 * subject.size) - along * half;
-  const auto first = onWindow(camera, area, origin),
-             last = onWindow(camera, area, origin + along * subject.size);
-  if (!first || !last) return;
+  const auto ruler = rulerOf(subject, camera);
+  if (!ruler) return;
   const float s = float(context.ui.scale());
+  const auto first = onWindow(camera, area, ruler->origin);
+  const auto last = onWindow(camera, area, ruler->origin + ruler->along * subject.size);
+  if (!first || !last) return;
   draw.AddLine(toIm(*first), toIm(*last), kFaint, s);
-  for (double at = 0; at <= subject.size * 1.0001; at += step) {
-    const auto low = onWindow(camera, area, origin + along * at),
-               high = onWindow(camera, area, origin + along * at + out * (0.03 * subject.size));
+  const double step = gridSpacing(scene);
+  const int ticks = int(subject.size / step + 1e-6);
+  const int every = glm::distance(*first, *last) / (subject.size / step) > 36 * s ? 1 : 5;
+  for (int i = 0; i <= ticks; ++i) {
+    const bool labelled = i % every == 0;
+    const glm::dvec3 at = ruler->origin + ruler->along * (i * step);
+    const auto low = onWindow(camera, area, at),
+               high = onWindow(camera, area, at + ruler->out * (labelled ? 0.03 : 0.015) * subject.size);
     if (!low || !high) return;
     draw.AddLine(toIm(*low), toIm(*high), kFaint, s);
-    const std::string label = at == 0 ? "0" : formatLength(std::stod(fmt::format("{:.6g}", at)));
-    text(draw, *high + glm::dvec2(-0.5 * double(ImGui::CalcTextSize(label.c_str()).x), 2 * s), kFaint, label);
+    if (!labelled) continue;
+    const std::string label = i == 0 ? "0" : formatLength(std::stod(fmt::format("{:.6g}", i * step)));
+    const ImVec2 size = ImGui::CalcTextSize(label.c_str());
+    const glm::dvec2 away = glm::normalize(*high - *low + glm::dvec2(1e-9, 0));
+    const glm::dvec2 centre =
+        *high +
+        away * (0.5 * (std::abs(away.x) * double(size.x) + std::abs(away.y) * double(size.y)) + 4 * s);
+    text(draw, centre - 0.5 * fromIm(size), kFaint, label);
   }
 }
 
@@ -62,8 +94,7 @@ void drawWipe(PanelContext& context, ImDrawList& draw, const Area& area) {
   const std::string left = kNames[int(compare.left)], right = kNames[int(compare.right)];
   if (compare.mode == CompareView::Mode::kDifference) {
     text(draw, area.low + glm::dvec2(12 * s, 10 * s), kInk,
-         fmt::format("|{} \xe2\x88\x92 {}| over the mean of the right, 0 to {:.0f} %", left, right,
-                     100 * compare.full));
+         fmt::format("|{} - {}| over the mean of the right, 0 to {:.0f} %", left, right, 100 * compare.full));
     return;
   }
   draw.AddLine({float(x), float(area.low.y)}, {float(x), float(area.high.y)}, IM_COL32(230, 230, 230, 150),

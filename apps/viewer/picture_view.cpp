@@ -118,6 +118,7 @@ void PictureView::update(const Request& request) {
   atRest_ =
       rest && whole && !drew_ && (!compares(Source::kTruth) || walkTexture_ || !walk_.problem().empty());
   updateError(request);
+  if (measuring_.valid()) atRest_ = false;
 }
 
 void PictureView::updateWalk(const Request& request) {

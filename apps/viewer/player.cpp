@@ -59,6 +59,7 @@ void Player::key(const KeyChord& chord) {
   release.modifiers = {};
   frames_.push_back({press});
   frames_.push_back({release});
+  frames_.push_back({});
 }
 
 void Player::type(const std::string& text) {
@@ -85,6 +86,7 @@ void Player::begin(const ScriptStep& step, Window& window, const Ui& ui) {
       pointAt(find(step.to, ui, step.line));
       button(step.button, true);
       button(step.button, false);
+      frames_.push_back({});  // the window answers before the next step looks for its controls
       break;
     case Kind::kDrag: {
       const glm::dvec2 from = find(step.from, ui, step.line), to = find(step.to, ui, step.line);
@@ -92,6 +94,7 @@ void Player::begin(const ScriptStep& step, Window& window, const Ui& ui) {
       button(step.button, true);
       for (int i = 1; i <= step.count; ++i) pointAt(from + (to - from) * (double(i) / step.count));
       button(step.button, false);
+      frames_.push_back({});
       break;
     }
     case Kind::kScroll:

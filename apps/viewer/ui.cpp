@@ -67,9 +67,17 @@ std::string hidden(const char* text) {
 
 std::string markName(const std::string& label) {
   std::string name;
-  for (const char c : label)
-    name +=
-        std::isalnum(static_cast<unsigned char>(c)) ? char(std::tolower(static_cast<unsigned char>(c))) : '-';
+  for (const char c : label.substr(0, label.find(','))) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte == 0xcf) name += "sigma";  // the first byte of the one Greek letter that names need
+    if (byte >= 0x80) continue;
+    const bool plain = std::isalnum(byte) != 0;
+    if (plain)
+      name += char(std::tolower(byte));
+    else if (!name.empty() && name.back() != '-')
+      name += '-';
+  }
+  while (!name.empty() && name.back() == '-') name.pop_back();
   return name;
 }
 

@@ -74,7 +74,7 @@ class Ui {
   std::array<bool, 3> held_{}, pressed_{};
 };
 
-/// "Mean free path" -> "mean-free-path".
+/// "Free path, mm" -> "free-path".
 std::string markName(const std::string& label);
 
 inline ImVec2 toIm(const glm::dvec2& p) {
