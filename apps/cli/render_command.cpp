@@ -29,7 +29,7 @@ struct Flags {
   std::string method = "matched", profile = "dipole", components, aov, resolution = "600x600", samples,
               singleSamples, map;
   std::string exposure = "0", toneMap = "srgb", time;
-  std::string noise, tolerance;
+  std::string noise, tolerance, cells, collisions;
   std::string output, resume, stats, device = "auto";
   int bits = 8, threads = 0, frames = 1;
   bool transparent = false, verbose = false, debug = false, turntable = false;
@@ -147,6 +147,8 @@ RenderSettings settingsFromFlags(const Flags& flags) {
   if (!flags.samples.empty()) {
     if (settings.method == Method::kWalk)
       settings.samples = parseNumber(flags.samples, "--samples");
+    else if (settings.method == Method::kVolume)
+      settings.passes = wholeNumber(flags.samples, "--samples");
     else if (settings.method == Method::kMatched)
       settings.multipleSamples = wholeNumber(flags.samples, "--samples");
     else
@@ -154,6 +156,8 @@ RenderSettings settingsFromFlags(const Flags& flags) {
   }
   if (!flags.singleSamples.empty())
     settings.singleSamples = wholeNumber(flags.singleSamples, "--single-samples");
+  if (!flags.cells.empty()) settings.cells = wholeNumber(flags.cells, "--cells");
+  if (!flags.collisions.empty()) settings.collisions = wholeNumber(flags.collisions, "--collisions");
   if (!flags.tolerance.empty()) settings.tolerance = share(flags.tolerance, "--tolerance");
   if (!flags.noise.empty()) settings.noise = share(flags.noise, "--noise");
   if (!flags.time.empty()) settings.timeLimit = duration(flags.time, "--time");
@@ -295,12 +299,17 @@ void addSceneFlags(CLI::App& command, Flags& flags) {
 
 void addMethodFlags(CLI::App& command, Flags& flags) {
   command.add_option("--method", flags.method,
-                     "matched (default), adaptive, fixed, dipole, hierarchical or walk");
-  command.add_option("--profile", flags.profile, "dipole (default), better-dipole, normalized-diffusion or tabulated");
+                     "matched (default), adaptive, fixed, volume, dipole, hierarchical or walk");
+  command.add_option("--profile", flags.profile,
+                     "dipole (default), better-dipole, normalized-diffusion or tabulated");
   command.add_option("--components", flags.components, "any of multiple,single,surface (default all)");
-  command.add_option("--samples", flags.samples,
-                     "matched: samples a pixel, 8 to 128 (32); walk: photons per pixel (16); adaptive, "
-                     "fixed: single-scattering samples (8)");
+  command.add_option(
+      "--samples", flags.samples,
+      "matched: samples a pixel, 8 to 128 (32); volume: passes of photons (4); walk: photons per "
+      "pixel (16); adaptive, fixed: single-scattering samples (8)");
+  command.add_option("--cells", flags.cells, "volume: cells along an object's longest side, 8 to 192 (64)");
+  command.add_option("--collisions", flags.collisions,
+                     "volume: collisions traced before the diffusion equation takes over, 1 to 64 (6)");
   command.add_option("--single-samples", flags.singleSamples,
                      "single-scattering samples along the refracted ray (8)");
   command.add_option("--map", flags.map, "light-space map size, 128 to 4096 (512)");

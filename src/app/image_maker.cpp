@@ -19,10 +19,11 @@ ImageMaker::ImageMaker(RendererOptions options)
 Image ImageMaker::render(const Scene& scene, const RenderSettings& settings, const Progress& progress,
                          const ReferenceOptions& reference) {
   Image image;
-  lastWasRealTime_ = !isReference(settings.method);
+  lastWasRealTime_ = !isReference(settings.method) && settings.method != Method::kVolume;
   if (lastWasRealTime_) {
-    if (!renderer_) renderer_ = std::make_unique<Renderer>(options_);
-    image = renderer_->render(scene, settings, progress);
+    image = renderRealTime(scene, settings, progress);
+  } else if (settings.method == Method::kVolume) {
+    image = renderVolume(scene, settings, progress);
   } else {
     ReferenceOptions judge = reference;
     if (!judge.profiles) judge.profiles = options_.profiles;
@@ -34,6 +35,30 @@ Image ImageMaker::render(const Scene& scene, const RenderSettings& settings, con
   image.metadata["seed"] = std::to_string(settings.seed);
   image.metadata["scene"] = sceneToToml(scene);
   return image;
+}
+
+Image ImageMaker::renderRealTime(const Scene& scene, const RenderSettings& settings,
+                                 const Progress& progress) {
+  if (!renderer_) renderer_ = std::make_unique<Renderer>(options_);
+  return renderer_->render(scene, settings, progress);
+}
+
+/// By the solver; where an object has no inside, by `matched`, and the picture says so.
+Image ImageMaker::renderVolume(const Scene& scene, const RenderSettings& settings, const Progress& progress) {
+  validate(scene);
+  validate(settings);
+  if (!volume_) volume_ = std::make_unique<VolumeSolver>();
+  const std::string obstacle = volume_->obstacle(scene);
+  if (!obstacle.empty()) {
+    logTo(options_.log, LogLevel::kWarning, "volume: " + obstacle + "; rendered by matched instead");
+    RenderSettings instead = settings;
+    instead.method = Method::kMatched;
+    lastWasRealTime_ = true;
+    Image image = renderRealTime(scene, instead, progress);
+    image.metadata["fallback"] = "matched: " + obstacle;
+    return image;
+  }
+  return volume_->render(scene, settings, progress);
 }
 
 }  // namespace lychnite

@@ -13,8 +13,8 @@ namespace lychnite {
 namespace {
 
 const std::vector<std::string>& methodNames() {
-  static const std::vector<std::string> names{"matched", "adaptive",     "fixed",
-                                              "dipole",  "hierarchical", "walk"};
+  static const std::vector<std::string> names{"matched",      "adaptive", "fixed", "dipole",
+                                              "hierarchical", "walk",     "volume"};
   return names;
 }
 
@@ -99,6 +99,9 @@ void validate(const RenderSettings& settings) {
   requireRange(settings.tolerance, 1e-5, 1, "tolerance");
   requireRange(settings.timeLimit, 0, 1e9, "time");
   requireRange(settings.noise, 0, 10, "noise");
+  requireRange(settings.cells, 8, 192, "cells");
+  requireRange(settings.collisions, 1, 64, "collisions");
+  requireRange(settings.passes, 1, 10000, "passes");
   requireRange(settings.threads, 0, 1024, "threads");
   const std::vector<std::string> known{"multiple", "single", "surface",   "depth",
                                        "normal",   "lights", "radiosity", "stderr"};
@@ -108,7 +111,7 @@ void validate(const RenderSettings& settings) {
     if (aov == "stderr" && settings.method != Method::kWalk)
       refuse("aov", "a method with noise (walk) for 'stderr'",
              fmt::format("'{}'", methodName(settings.method)));
-    if (aov == "lights" && isReference(settings.method))
+    if (aov == "lights" && (isReference(settings.method) || settings.method == Method::kVolume))
       refuse("aov", "a real-time method for 'lights'", fmt::format("'{}'", methodName(settings.method)));
   }
 }

@@ -181,7 +181,7 @@ namespace {
 void checkRequest(const Scene& scene, const RenderSettings& settings) {
   validate(scene);
   validate(settings);
-  if (isReference(settings.method))
+  if (isReference(settings.method) || settings.method == Method::kVolume)
     throw Error({.where = "method",
                  .expected = "a real-time method",
                  .found = fmt::format("'{}', which renderReference() renders", methodName(settings.method)),

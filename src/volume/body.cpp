@@ -1,7 +1,5 @@
 #include "volume/body.h"
 
-#include <chrono>
-
 namespace lychnite::volume {
 
 namespace {
@@ -20,7 +18,8 @@ Shape::Shape(std::shared_ptr<const Mesh> source, int cells)
       local(*mesh),
       undefined(undefinedInside(local)),
       grid(local, cells),
-      surface(local, grid) {}
+      surface(local, grid),
+      smoother(grid, surface) {}
 
 Body::Body(std::shared_ptr<const Shape> which, const RayScene& rays, int object, bool alone)
     : shape(std::move(which)),

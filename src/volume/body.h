@@ -6,6 +6,7 @@
 #include "reference/ray_scene.h"
 #include "reference/transport.h"
 #include "volume/diffusion.h"
+#include "volume/smooth.h"
 
 namespace lychnite::volume {
 
@@ -17,8 +18,8 @@ struct Shape {
   double undefined;  ///< see undefinedInside()
   Grid grid;
   Surface surface;
-  double seconds = 0;  ///< it took
-  size_t memoryBytes() const { return grid.memoryBytes() + surface.memoryBytes(); }
+  Smoother smoother;
+  size_t memoryBytes() const { return grid.memoryBytes() + surface.memoryBytes() + smoother.memoryBytes(); }
 };
 
 /// A translucent object of a scene: a shape at its place, with its medium.

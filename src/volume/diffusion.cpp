@@ -35,8 +35,8 @@ Lanes ratio(const Lanes& a, const Lanes& b) {
 
 }  // namespace
 
-Diffusion::Diffusion(double sigma_sp, double absorption, double eta) : sigma_a(absorption) {
-  const double sigma_tp = sigma_sp + absorption;
+Diffusion::Diffusion(double sigma_sp, double absorption, double eta)
+    : sigma_a(absorption), sigma_tp(std::max(1e-6, sigma_sp + absorption)), albedo_p(sigma_sp / sigma_tp) {
   D = (2 * absorption + sigma_sp) / (3 * sigma_tp * sigma_tp);
   const double c1 = internalMoment(eta, 1), c2 = internalMoment(eta, 2);
   zb = 2 * D * (1 + 3 * c2) / (1 - 2 * c1);

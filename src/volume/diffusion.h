@@ -14,6 +14,7 @@ namespace lychnite::volume {
 struct Diffusion {
   double D = 1, sigma_a = 0, zb = 0;
   double k = 0;  ///< sqrt(sigma_a / D), at least 1e-3
+  double sigma_tp = 1, albedo_p = 0;
 
   Diffusion() = default;
   Diffusion(double sigma_sp, double absorption, double eta);
@@ -32,6 +33,13 @@ struct Diffusion {
     return z < d ? std::exp(-k * (d - z)) * scaledU(z) / scaledU(d) : 1;
   }
 
+  /// Fourier transform at wave number q (radians per length) of a half-space's diffuse reflectance profile: a
+  /// source and its mirror image, as in Jensen et al. 2001, with this D and zb.
+  double response(double q) const {
+    const double zr = 1 / sigma_tp, s = std::sqrt(q * q + sigma_a / D);
+    return 0.5 * albedo_p * (std::exp(-zr * s) + std::exp(-(zr + 2 * zb) * s));
+  }
+
  private:
   /// 2 exp(-kz) u(z).
   double scaledU(double z) const {
@@ -46,9 +54,6 @@ struct DiffusionRgb {
   DiffusionRgb(const Coefficients& local);
   Diffusion channel[3];
 };
-
-/// Four lanes, three of them channels.
-typedef float Lanes __attribute__((vector_size(16)));
 
 /// The diffusion equation on a grid: for each channel, D sum over links of g (phi - phi') + (sigma_a V + sum
 /// over samples of a D / u(d)) phi = Q. Rebuilt for a new medium or size, solved for each light.

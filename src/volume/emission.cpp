@@ -83,4 +83,48 @@ Traced traceLight(const World& world, const std::vector<Emission>& emission, con
   return result;
 }
 
+std::vector<std::vector<float>> enteringFlux(const World& world, const RayLight& light) {
+  RayLight unit = light;
+  unit.power = Rgb(1);
+  std::vector<std::vector<float>> result(world.bodies.size());
+  for (size_t object = 0; object < world.bodies.size(); ++object) {
+    if (!world.bodies[object]) continue;
+    const Body& body = *world.bodies[object];
+    const Surface& surface = body.shape->surface;
+    const auto& samples = surface.samples();
+    std::vector<float> each(samples.size(), 0), best(surface.nodes().size(), 0);
+    std::vector<uint32_t> brightest(best.size(), 0);
+    const auto hitOf = [&](size_t s) {
+      const glm::vec2 at = surface.pointOf(uint32_t(s), 1.0f / 3, 1.0f / 3);
+      return world.rays->hitOf(int(object), samples[s].triangle, at.x, at.y, 0);
+    };
+    tbb::parallel_for(size_t(0), (samples.size() + kBlock - 1) / kBlock, [&](size_t b) {
+      for (size_t s = b * kBlock; s < std::min(samples.size(), (b + 1) * kBlock); ++s) {
+        const RayHit hit = hitOf(s);
+        const RayLight::Seen seen = unit.seenFrom(hit.position);
+        const float cosine = std::fmin(1.0f, glm::dot(glm::vec3(seen.direction), hit.normal));
+        if (cosine <= 0) continue;
+        const float T = 1 - transport::fresnel(cosine, body.medium.eta).reflectance;
+        each[s] = float(seen.irradiance.x) * cosine * T * samples[s].area * body.size * body.size;
+      }
+    });
+    for (uint32_t s = 0; s < samples.size(); ++s)
+      if (each[s] > best[samples[s].node]) best[samples[s].node] = each[s], brightest[samples[s].node] = s;
+    std::vector<char> lit(best.size(), 0);
+    tbb::parallel_for(size_t(0), (best.size() + kBlock - 1) / kBlock, [&](size_t b) {
+      for (size_t n = b * kBlock; n < std::min(best.size(), (b + 1) * kBlock); ++n) {
+        if (!(best[n] > 0)) continue;
+        const RayHit hit = hitOf(brightest[n]);
+        const RayLight::Seen seen = unit.seenFrom(hit.position);
+        const glm::vec3 towards(seen.direction);
+        lit[n] = !world.rays->occluded(offPoint(hit, towards), towards, float(seen.distance));
+      }
+    });
+    result[object].assign(best.size(), 0);
+    for (uint32_t s = 0; s < samples.size(); ++s)
+      if (lit[samples[s].node]) result[object][samples[s].node] += each[s];
+  }
+  return result;
+}
+
 }  // namespace lychnite::volume

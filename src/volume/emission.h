@@ -32,4 +32,8 @@ struct Traced {
 Traced traceLight(const World& world, const std::vector<Emission>& emission, const RayLight& light,
                   int collisions, uint64_t seed, int pass);
 
+/// Flux of a light of power 1 that enters each node of each body, straight from the light: the samples'
+/// cosines and Fresnel terms, and one look for shadows a node.
+std::vector<std::vector<float>> enteringFlux(const World& world, const RayLight& light);
+
 }  // namespace lychnite::volume

@@ -13,13 +13,6 @@ constexpr float kWidth = 0.5f;    // standard deviation of the kernel, in voxels
 constexpr float kFacing = 0.05f;  // cosine of normals below which nodes are not of one surface
 constexpr float kLeast = 1e-12f;
 
-bool linked(const Grid& grid, uint32_t a, uint32_t b) {
-  if (a == b) return true;
-  for (auto* link = grid.linksBegin(a); link != grid.linksEnd(a); ++link)
-    if (link->to == b) return true;
-  return false;
-}
-
 }  // namespace
 
 void Gather::weigh(const Shape& shape, const glm::vec3& p, const glm::vec3& normal, uint32_t cell,
@@ -35,7 +28,7 @@ void Gather::weigh(const Shape& shape, const glm::vec3& p, const glm::vec3& norm
     if (facing < kFacing) return;
     const glm::vec3 way = node.position - p;
     const float x = glm::dot(way, way) * perVariance;
-    if (x > 12 || (cell != Grid::kNone && !linked(shape.grid, cell, node.cell))) return;
+    if (x > 12 || (cell != Grid::kNone && !shape.grid.linked(cell, node.cell))) return;
     const float weight = facing * facing * std::exp(-x);
     sum += weight * node.area;
     weights.push_back({n, weight});

@@ -34,6 +34,14 @@ class Grid {
   const Link* linksBegin(size_t i) const { return links_.data() + firstLink_[i]; }
   const Link* linksEnd(size_t i) const { return links_.data() + firstLink_[i + 1]; }
 
+  /// Whether two cells are the same or share an opening.
+  bool linked(uint32_t a, uint32_t b) const {
+    if (a == b) return true;
+    for (const Link* link = linksBegin(a); link != linksEnd(a); ++link)
+      if (link->to == b) return true;
+    return false;
+  }
+
   /// Position in voxels.
   glm::vec3 voxels(const glm::vec3& p) const { return (p - origin_) * perSide_; }
   bool contains(const glm::ivec3& voxel) const {

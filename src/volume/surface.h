@@ -10,6 +10,9 @@
 
 namespace lychnite::volume {
 
+/// Four lanes, three of them channels.
+typedef float Lanes __attribute__((vector_size(16)));
+
 /// The surface of a shape as small flat pieces, local units: each triangle cut into m x m equal ones. Each
 /// sample knows the cell behind it and how deep that cell's centroid lies under it. Nearby samples of one
 /// cell and one orientation form a node: where light that leaves is gathered.

@@ -1,6 +1,7 @@
 #include "lychnite/volume/volume.h"
 
 #include <fmt/format.h>
+#include <tbb/task_arena.h>
 
 #include <chrono>
 #include <cmath>
@@ -22,6 +23,8 @@ namespace {
 
 // Share of lines through a mesh along which inside may be undefined: pinholes, slivers of self-intersection.
 constexpr double kUndefined = 0.01;
+constexpr double kWidth = 2;            // standard deviation of the smoothing on the surface, in voxels
+constexpr double kBandWave = 1.9;       // times 1/width: where the band between two widths has its peak
 constexpr int kExchangeCollisions = 2;  // of light that meets another surface, before the solver takes over
 
 double since(std::chrono::steady_clock::time_point start) {
@@ -35,9 +38,29 @@ struct LightField {
   std::vector<Deposits> deposits;  ///< sums over the passes
   Tally tally;
   std::vector<std::vector<Lanes>> phi, phiBack;     ///< solutions, kept as first guesses
+  std::vector<std::vector<float>> entering;         ///< flux that enters each node, per body
   std::vector<std::vector<Lanes>> first, multiple;  ///< flux that leaves at each node, per body
   Rgb absorbed{0};
 };
+
+void tellStats(const VolumeStats& stats, Image& image) {
+  const auto put = [&](const char* key, const std::string& value) {
+    image.metadata[std::string("volume.") + key] = value;
+  };
+  const auto rgb = [](const Rgb& c) { return fmt::format("{:.6g} {:.6g} {:.6g}", c.x, c.y, c.z); };
+  put("geometry_ms", fmt::format("{:.1f}", stats.geometryMs));
+  put("source_ms", fmt::format("{:.1f}", stats.sourceMs));
+  put("solve_ms", fmt::format("{:.1f}", stats.solveMs));
+  put("exchange_ms", fmt::format("{:.1f}", stats.exchangeMs));
+  put("cells", fmt::format("{}", stats.cells));
+  put("memory_bytes", fmt::format("{}", stats.memoryBytes));
+  put("passes", fmt::format("{}", stats.passes));
+  put("iterations", fmt::format("{}", stats.iterations));
+  put("left", rgb(stats.left));
+  put("absorbed", rgb(stats.absorbed));
+  put("unscattered", rgb(stats.unscattered));
+  put("lost", rgb(stats.lost));
+}
 
 bool sameRays(const RayLight& a, const RayLight& b) {
   return a.parallel == b.parallel && a.direction == b.direction && a.position == b.position;
@@ -131,6 +154,7 @@ void VolumeSolver::Impl::trace(LightField& field) {
   const auto start = std::chrono::steady_clock::now();
   Traced traced = traceLight(world, emission, field.light, settings.collisions, settings.seed, field.passes);
   if (field.passes == 0) {
+    field.entering = enteringFlux(world, field.light);
     field.deposits = std::move(traced.deposits);
     field.tally = traced.tally;
   } else {
@@ -202,15 +226,43 @@ void VolumeSolver::Impl::exchangeLight(LightField& field) {
 
 std::vector<Lanes> VolumeSolver::Impl::flux(int object, Orders orders) const {
   const Body& body = *world.bodies[size_t(object)];
-  std::vector<Lanes> sum(body.shape->surface.nodes().size(), Lanes{0, 0, 0, 0});
+  const std::vector<Lanes> none(body.shape->surface.nodes().size(), Lanes{0, 0, 0, 0});
+  std::vector<Lanes> first = none, multiple = none, entering = none;
+  Lanes sums[2] = {{0, 0, 0, 0}, {0, 0, 0, 0}};
   for (size_t l = 0; l < fields.size(); ++l) {
     const Rgb power = rays->lights()[l].power / double(body.size * body.size);
     const Lanes p{float(power.x), float(power.y), float(power.z), 0};
-    const auto &first = fields[l].first[size_t(object)], &multiple = fields[l].multiple[size_t(object)];
-    for (size_t n = 0; n < sum.size(); ++n) {
-      if (orders != Orders::kMultiple) sum[n] += p * first[n];
-      if (orders != Orders::kFirst) sum[n] += p * multiple[n];
+    const LightField& field = fields[l];
+    for (size_t n = 0; n < none.size(); ++n) {
+      first[n] += p * field.first[size_t(object)][n];
+      multiple[n] += p * field.multiple[size_t(object)][n];
+      entering[n] += p * field.entering[size_t(object)][n];
+      sums[0] += p * field.first[size_t(object)][n];
+      sums[1] += p * field.entering[size_t(object)][n];
     }
+  }
+  const double h = body.shape->grid.side();
+  const Smoother& smoother = body.shape->smoother;
+  std::vector<Lanes> sum = none;
+  if (orders != Orders::kMultiple) sum = first;
+  if (orders != Orders::kFirst)
+    for (size_t n = 0; n < sum.size(); ++n) sum[n] += multiple[n];
+  const double w = kWidth;
+  sum = smoother.smoothed(sum, w);
+  double before = 0;
+  for (double next : {0.25 * w, 0.5 * w, w}) {
+    std::vector<Lanes> wider = smoother.smoothed(entering, std::sqrt(next * next - before * before));
+    const double q = kBandWave / (next * h);
+    Lanes response{0, 0, 0, 0};
+    for (int c = 0; c < 3; ++c) {
+      const Diffusion& d = body.system.medium().channel[c];
+      const double r1 = sums[1][c] > 0 ? double(sums[0][c] / sums[1][c]) * std::exp(-q / d.sigma_tp) : 0;
+      const double all = std::max(r1, d.response(q));
+      response[c] = float(orders == Orders::kAll ? all : orders == Orders::kFirst ? r1 : all - r1);
+    }
+    for (size_t n = 0; n < sum.size(); ++n) sum[n] += response * (entering[n] - wider[n]);
+    entering = std::move(wider);
+    before = next;
   }
   return sum;
 }
@@ -323,6 +375,20 @@ Image VolumeSolver::picture(const RenderSettings& settings, const Progress& prog
     multiple[i] = impl_->flux(int(i), Orders::kMultiple);
   }
   return volumePicture(*impl_->rays, impl_->world, {all, multiple}, settings, progress);
+}
+
+Image VolumeSolver::render(const Scene& scene, const RenderSettings& settings, const Progress& progress) {
+  tbb::task_arena arena(settings.threads > 0 ? settings.threads : tbb::task_arena::automatic);
+  return arena.execute([&] {
+    const auto start = std::chrono::steady_clock::now();
+    update(scene, {.cells = settings.cells, .collisions = settings.collisions, .seed = settings.seed},
+           progress);
+    while (impl_->stats.passes > 0 && impl_->stats.passes < settings.passes) refine(progress);
+    Image image = picture(settings, progress);
+    tellStats(impl_->stats, image);
+    image.metadata["seconds"] = fmt::format("{:.3f}", since(start) / 1000);
+    return image;
+  });
 }
 
 const VolumeStats& VolumeSolver::stats() const {

@@ -10,8 +10,8 @@
 
 namespace lychnite {
 
-/// Every --method: the real-time ones (technique/) and the CPU judges (reference/).
-enum class Method { kMatched, kAdaptive, kFixed, kDipole, kHierarchical, kWalk };
+/// Every --method: the real-time ones (technique/), the CPU judges (reference/), and the solver (volume/).
+enum class Method { kMatched, kAdaptive, kFixed, kDipole, kHierarchical, kWalk, kVolume };
 Method parseMethod(std::string_view name, std::string_view where);  ///< throws Error with the nearest name
 std::string methodName(Method method);
 bool isReference(Method method);  ///< rendered by reference/ on the CPU
@@ -44,6 +44,9 @@ struct RenderSettings {
   double tolerance = 0.005;  ///< dipole: relative error to refine to
   double timeLimit = 0;      ///< walk: seconds, 0 = none
   double noise = 0;          ///< walk: relative noise to stop at, 0 = none
+  int cells = 64;            ///< volume: along each object's longest side, 8..192
+  int collisions = 6;        ///< volume: traced before the diffusion equation takes over, 1..64
+  int passes = 4;            ///< volume: of photons, 1..10000
   uint64_t seed = 1;
   int threads = 0;  ///< 0 = all cores
   /// Layers beside colour and alpha: multiple, single, surface, depth, normal, lights, radiosity, stderr.

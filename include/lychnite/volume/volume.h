@@ -15,7 +15,7 @@ namespace lychnite {
 /// How the light inside is computed (docs/volume.md).
 struct VolumeSettings {
   int cells = 64;           ///< along each object's longest side, 8..192
-  int collisions = 3;       ///< of each photon, traced before the diffusion equation takes over, 1..64
+  int collisions = 6;       ///< of each photon, traced before the diffusion equation takes over, 1..64
   int photons = 1 << 17;    ///< starting points on each object's surface, lit or not, in one pass, 1024..2^24
   double tolerance = 0.01;  ///< relative residual of the diffusion solve, in (0, 1)
   uint64_t seed = 1;
@@ -67,6 +67,10 @@ class VolumeSolver {
   /// The picture of the last update: settings' size, components, aovs, seed; conventions of
   /// renderReference(). `multiple` is order two and up; "radiosity" all orders.
   Image picture(const RenderSettings& settings, const Progress& progress = {}) const;
+
+  /// update(), refine() up to settings.passes, and picture(), on settings.threads; with the statistics as
+  /// metadata "volume.*".
+  Image render(const Scene& scene, const RenderSettings& settings, const Progress& progress = {});
 
   const VolumeStats& stats() const;
 
