@@ -1,6 +1,6 @@
 // The surface points of a pixel at which scattering is evaluated. The geometry texture holds 2 x 2 samples a pixel;
-// where all four lie on one smooth piece of surface they become one receiver, elsewhere (silhouettes, creases) each
-// is its own, so that edges are anti-aliased and what is inside them is not blurred.
+// where all four lie on one smooth piece of surface they become one receiver, elsewhere (silhouettes, creases, where
+// the exit lobe falls off) each is its own, so that edges are anti-aliased and what is inside them is not blurred.
 #include "lib/octahedral.glsl"
 
 uniform sampler2D geometry;
@@ -9,6 +9,9 @@ uniform vec3 cameraRight;    // times the tangent of half the horizontal angle
 uniform vec3 cameraUp;       // times the tangent of half the vertical angle
 uniform vec3 cameraForward;
 uniform float objectNumber;
+
+// Cosines to the camera so close together, the less the flatter, have one exit lobe. As reference/camera_receivers.cpp.
+const float kLobeSpread = 0.25;
 
 struct Receiver {
   vec3 position;  // scene units
@@ -48,8 +51,15 @@ int loadReceivers(out Receiver receivers[4]) {
     float together = length(normal) * 0.25;
     normal = normalize(normal);
     float off = 0.0;
-    for (int i = 0; i < 4; ++i) off = max(off, abs(dot(positions[i] - centre, normal)));
-    if (together > 0.975 && off < 0.25 * spread) {
+    float least = 1.0;
+    float most = 0.0;
+    for (int i = 0; i < 4; ++i) {
+      off = max(off, abs(dot(positions[i] - centre, normal)));
+      float cosO = dot(normals[i], normalize(cameraPosition - positions[i]));
+      least = min(least, cosO);
+      most = max(most, cosO);
+    }
+    if (together > 0.975 && off < 0.25 * spread && most - least < kLobeSpread * least * least) {
       receivers[0] = receiverAt(centre, normal, 1.0);
       return 1;
     }

@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
 
@@ -14,6 +15,9 @@ constexpr double kSubsample[4][2] = {{.25, .25}, {.75, .25}, {.25, .75}, {.75, .
 // the pixel's footprint on a surface 80 degrees to the view could differ.
 constexpr float kSimilarNormal = 0.95f;
 constexpr double kDepthPerFootprint = 6.0;
+// Cosines to the camera so close together, the less the flatter, have one exit lobe. As
+// shaders/pass/receiver.glsl.
+constexpr float kLobeSpread = 0.25f;
 
 struct Caster {
   const RayScene& rays;
@@ -44,6 +48,16 @@ struct Caster {
            std::abs(a.depth - b.depth) < kDepthPerFootprint * footprint * a.depth;
   }
 
+  static bool oneLobe(const std::array<Receiver, 4>& samples) {
+    float least = 1, most = 0;
+    for (const Receiver& sample : samples) {
+      const float cosO = glm::dot(sample.normal, sample.view);
+      least = std::min(least, cosO);
+      most = std::max(most, cosO);
+    }
+    return most - least < kLobeSpread * least * least;
+  }
+
   /// Appends the pixel's receivers; returns how many of its samples hit something.
   uint8_t pixel(uint32_t index, std::vector<Receiver>& out) const {
     const double x = index % uint32_t(camera.width), y = index / uint32_t(camera.width);
@@ -55,9 +69,11 @@ struct Caster {
       covered += samples[size_t(i)].hit ? 1 : 0;
       one = one && samples[size_t(i)].hit && similar(samples[0], samples[size_t(i)]);
     }
-    if (one) {
+    if (one && oneLobe(samples)) {
       Receiver centre = cast(x + 0.5, y + 0.5);
       if (centre.hit && similar(samples[0], centre)) {
+        centre.normal =
+            glm::normalize(samples[0].normal + samples[1].normal + samples[2].normal + samples[3].normal);
         centre.pixel = index;
         out.push_back(centre);
         return covered;
@@ -101,13 +117,14 @@ void addGeometryLayers(Image& image, const CameraReceivers& receivers, const Ray
   for (size_t i = 0; i < alpha.size(); ++i) alpha[i] = receivers.alpha(i);
   const bool depth = settings.wants("depth"), normal = settings.wants("normal");
   if (depth) image.addChannel("depth.Z");
+  constexpr const char* kNormal[] = {"normal.X", "normal.Y", "normal.Z"};
   if (normal)
-    for (const char* name : {"normal.R", "normal.G", "normal.B"}) image.addChannel(name);
+    for (const char* name : kNormal) image.addChannel(name);
   for (const Receiver& receiver : receivers.receivers) {
     const float share = receiver.weight / receivers.alpha(receiver.pixel);
     if (depth) image.addChannel("depth.Z")[receiver.pixel] += share * receiver.depth * float(scene.unit());
     if (normal)
-      image.setRgb(receiver.pixel, image.rgb(receiver.pixel, "normal") + share * receiver.normal, "normal");
+      for (int i = 0; i < 3; ++i) image.addChannel(kNormal[i])[receiver.pixel] += share * receiver.normal[i];
   }
 }
 

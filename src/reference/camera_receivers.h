@@ -36,7 +36,7 @@ CameraReceivers findReceivers(const RayScene& scene, int width, int height);
 
 /// Adds "A" and, where asked for, the AOVs depth ("depth.Z", mm along the view axis, 0 where nothing is) and
 /// normal
-/// ("normal.R|G|B", interpolated, world axes), averaged over the covered part of each pixel.
+/// ("normal.X|Y|Z", interpolated, world axes), averaged over the covered part of each pixel.
 void addGeometryLayers(Image& image, const CameraReceivers& receivers, const RayScene& scene,
                        const RenderSettings& settings);
 

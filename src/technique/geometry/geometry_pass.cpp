@@ -42,8 +42,10 @@ bool GeometryPass::update(const Frame& frame, const MeshCache& meshes) {
   targets_->framebuffer.clearColour(0, {0, 0, 0, 0});
   targets_->framebuffer.clearDepth();
   gpu::Pass pass("geometry", targets_->framebuffer, {.depthTest = gpu::DepthTest::kLess, .depthWrite = true});
+  program_.set("cameraPosition", glm::vec3(frame.camera.position));
   for (size_t i = 0; i < frame.objects.size(); ++i) {
     const FrameObject& object = frame.objects[i];
+    program_.set("toWorld", glm::mat4(object.toWorld));
     program_.set("toClip", glm::mat4(frame.toClip * object.toWorld));
     program_.set("normalToWorld", object.normalToWorld);
     program_.set("objectNumber", float(i + 1));
