@@ -115,8 +115,8 @@ void PictureView::update(const Request& request) {
   if (rest && whole) restedAt_ = std::min(restedAt_, request.seconds);
   updateWalk(request);
   updateFile(request);
-  atRest_ =
-      rest && whole && !drew_ && (!compares(Source::kTruth) || walkTexture_ || !walk_.problem().empty());
+  settled_ = rest && whole && !drew_;
+  atRest_ = settled_ && (!compares(Source::kTruth) || walkTexture_ || !walk_.problem().empty());
   updateError(request);
   if (measuring_.valid()) atRest_ = false;
 }

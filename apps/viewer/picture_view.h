@@ -71,6 +71,8 @@ class PictureView {
   bool ready() const { return live_.ready(); }
   /// All that is asked for is there at full resolution (the walk: a first picture of it).
   bool atRest() const { return atRest_; }
+  /// The real-time pictures are there at full resolution; what is left goes on in the background.
+  bool settled() const { return settled_; }
   /// The last update() drew; and how long its frame took, for the pace of the next ones.
   bool drew() const { return drew_; }
   void frameTook(double ms);
@@ -116,7 +118,7 @@ class PictureView {
   CompareView compare_;
   double changedAt_ = -1e9, restedAt_ = 1e300, idleMs_ = 8;
   std::string key_;
-  bool atRest_ = false, drew_ = false;
+  bool atRest_ = false, settled_ = false, drew_ = false;
   int mapLevels_ = 1;
   std::future<Measured> measuring_;
   std::string measuredKey_;

@@ -150,6 +150,11 @@ bool Player::waiting(double seconds) {
                .todo = ""});
 }
 
+bool Player::waits() const {
+  if (!frames_.empty() || steps_.empty()) return false;
+  return steps_.front().kind == Kind::kWaitRest || steps_.front().kind == Kind::kWaitNoise;
+}
+
 Player::Events Player::next(Window& window, const Ui& ui, double seconds) {
   while (frames_.empty()) {
     if (steps_.empty() || waiting(seconds)) return {};

@@ -28,7 +28,8 @@ class Player {
   /// Called once a frame, before its input is handled: the events to handle now. Throws Error for a control
   /// that is not there, or when what is waited for does not come within `kPatience` seconds.
   std::vector<InputEvent> next(Window& window, const Ui& ui, double seconds);
-  bool done() const { return steps_.empty() && frames_.empty(); }
+  /// Nothing to do until what it waits for comes.
+  bool waits() const;
   static constexpr double kPatience = 240;
 
  private:

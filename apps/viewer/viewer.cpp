@@ -27,6 +27,7 @@ constexpr double kMessageSeconds = 6, kProblemSeconds = 20;
 constexpr double kBarHeight = 64;          // at scale 1
 constexpr int kFramesAfterInput = 3;       // a control may need some to settle
 constexpr double kPlayedFrame = 1 / 60.0;  // seconds that a frame of a script stands for
+constexpr double kSlowSeconds = 0.1;
 constexpr size_t kKeptFrames = 120;
 
 std::string contents(const fs::path& path) {
@@ -82,7 +83,8 @@ class Viewer {
 
   void start();
   void makePlayer();
-  double wait() const;
+  bool quick() const;
+  bool slow() const;
   void frame(const std::vector<InputEvent>& events);
   void handle(const std::vector<InputEvent>& events, PanelContext& context, const Area& picture);
   void drop(const InputEvent& event);
@@ -92,7 +94,6 @@ class Viewer {
   void finish(Clock::time_point start);
   void screenshot(const fs::path& path);
   bool atRest() const;
-  bool somethingToDo(const std::vector<InputEvent>& events);
   Preferences loadPreferences();
 
   ViewOptions options_;
@@ -111,7 +112,7 @@ class Viewer {
   std::unique_ptr<Player> player_;
   std::vector<Shown> shown_;
   std::string title_;
-  double seconds_ = 0, frameSeconds_ = 1 / 60.0;
+  double seconds_ = 0, frameSeconds_ = 1 / 60.0, lastFrame_ = 0;
   int framesLeft_ = kFramesAfterInput;
   bool quit_ = false, swatchesLeft_ = true, pictureShown_ = false;
 };
@@ -200,35 +201,40 @@ bool Viewer::atRest() const {
          !swatchesLeft_ && !controls_.animation.running() && !profiles_.busy();
 }
 
-double Viewer::wait() const {
-  if (player_ || framesLeft_ > 0 || controls_.animation.running() || !view_.atRest() || swatchesLeft_)
-    return 0;
-  return session_.loading() || session_.pictures().busy() ? 0.05 : 0.2;
+/// The window changes with every frame.
+bool Viewer::quick() const {
+  return framesLeft_ > 0 || !view_.settled() || swatchesLeft_ || controls_.animation.running() ||
+         (player_ && !player_->waits());
+}
+
+/// Something behind the window goes on, which is worth a look now and then.
+bool Viewer::slow() const {
+  const bool compares = session_.state().compare.mode != CompareView::Mode::kOff;
+  return compares || !view_.atRest() || !shown_.empty() || session_.pictures().busy() || session_.loading() ||
+         profiles_.busy();
 }
 
 void Viewer::run() {
   while (!quit_ && !window_.closing() && !hands_.quit()) {
-    std::vector<InputEvent> events = window_.events(wait());
+    const double wait = quick() ? 0 : player_ ? kPlayedFrame : slow() ? kSlowSeconds : 2 * kSlowSeconds;
+    std::vector<InputEvent> events = window_.events(wait);
     const double now = std::chrono::duration<double>(Clock::now() - began_).count();
     if (player_) events = player_->next(window_, ui_, now);
+    if (quit_) break;
     const double before = seconds_;
     seconds_ = player_ ? seconds_ + kPlayedFrame : now;
-    frameSeconds_ = std::min(seconds_ - before, 0.1);
-    if (quit_) break;
     const bool changed = session_.poll(seconds_);
-    if (profiles_.takeArrived()) view_.forget();
+    const bool arrived = profiles_.takeArrived();
+    if (arrived) view_.forget();
+    const size_t messages = shown_.size();
     takeMessages();
-    if (changed || somethingToDo(events)) framesLeft_ = kFramesAfterInput;
-    if (framesLeft_ <= 0 && view_.atRest() && !swatchesLeft_) continue;
+    if (changed || arrived || !events.empty() || shown_.size() != messages) framesLeft_ = kFramesAfterInput;
+    if (!quick() && !(slow() && now - lastFrame_ >= kSlowSeconds)) continue;
     --framesLeft_;
+    lastFrame_ = now;
+    frameSeconds_ = std::min(seconds_ - before, 0.1);
     if (window_.visible()) frame(events);
   }
-}
-
-bool Viewer::somethingToDo(const std::vector<InputEvent>& events) {
-  const bool walks = session_.state().compare.mode != CompareView::Mode::kOff;
-  return player_ || !events.empty() || controls_.animation.running() || !shown_.empty() || walks ||
-         session_.pictures().busy() || session_.loading() || profiles_.busy();
 }
 
 void Viewer::frame(const std::vector<InputEvent>& events) {
@@ -277,6 +283,8 @@ void Viewer::takeMessages() {
 }
 
 void Viewer::draw(PanelContext& context, const Layout& layout) {
+  // Before the panel: what it shows must stay as it is until the window is drawn.
+  swatchesLeft_ = view_.settled() && swatches_.drawOne(view_.display());
   ui_.begin(frameSeconds_);
   drawPanel(context, layout.panel);
   drawSizeBar(context, layout.bar);
@@ -291,7 +299,6 @@ void Viewer::draw(PanelContext& context, const Layout& layout) {
                   .moving = hands_.holding() || ui_.busy() || controls_.animation.running(),
                   .seconds = seconds_,
                   .file = session_.picture()});
-  swatchesLeft_ = view_.atRest() && swatches_.drawOne(view_.display());
   target.clearColour(0, {0.05f, 0.05f, 0.052f, 1});
   view_.show(target, {0, pixels.y - area.y, area.x, area.y}, session_.state());
   ui_.end();
