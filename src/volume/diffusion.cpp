@@ -60,19 +60,38 @@ DiffusionSystem::DiffusionSystem(const Grid& grid, const Surface& surface, const
         exit_[i][c] = samples[i].area * float(medium.channel[c].perFluence(double(samples[i].depth)));
     }
   });
-  diagonal_.resize(grid.size());
+  findAbsorption();
+  diagonal_ = absorption_;
   for (size_t i = 0; i < grid.size(); ++i) {
     float links = 0;
     for (auto* link = grid.linksBegin(i); link != grid.linksEnd(i); ++link) links += link->conductance;
-    diagonal_[i] = Lanes{links, links, links, 1};
-    for (int c = 0; c < 3; ++c)
-      diagonal_[i][c] += float(medium.channel[c].sigma_a / medium.channel[c].D) * grid.cell(i).volume;
+    diagonal_[i] += Lanes{links, links, links, 1};
   }
   for (size_t i = 0; i < samples.size(); ++i)
     if (samples[i].cell != Grid::kNone) diagonal_[samples[i].cell] += exit_[i];
   // A cell of no links, no absorption and no surface has no light either.
   for (Lanes& d : diagonal_)
     for (int c = 0; c < 3; ++c) d[c] = std::max(d[c], 1e-20f);
+}
+
+/// In the layers between the surface and a cell's centroid as on a plane, elsewhere by the centroid's
+/// fluence.
+void DiffusionSystem::findAbsorption() {
+  std::vector<float> layers(grid_.size(), 0);
+  for (const auto& s : surface_.samples())
+    if (s.cell != Grid::kNone) layers[s.cell] += s.area * s.depth;
+  absorption_.assign(grid_.size(), Lanes{0, 0, 0, 0});
+  for (const auto& s : surface_.samples()) {
+    if (s.cell == Grid::kNone) continue;
+    const float share = std::min(1.0f, grid_.cell(s.cell).volume / layers[s.cell]);
+    for (int c = 0; c < 3; ++c)
+      absorption_[s.cell][c] += share * s.area * float(medium_.channel[c].absorbedAbove(double(s.depth)));
+  }
+  for (size_t i = 0; i < grid_.size(); ++i) {
+    const float rest = std::max(0.0f, grid_.cell(i).volume - layers[i]);
+    for (int c = 0; c < 3; ++c)
+      absorption_[i][c] += float(medium_.channel[c].sigma_a / medium_.channel[c].D) * rest;
+  }
 }
 
 /// y = A x; `dots` gets x.y of each block.
@@ -151,8 +170,7 @@ void DiffusionSystem::exits(const std::vector<Lanes>& phi, std::vector<Lanes>& n
 Rgb DiffusionSystem::absorbed(const std::vector<Lanes>& phi) const {
   Rgb sum(0);
   for (size_t i = 0; i < phi.size(); ++i)
-    for (int c = 0; c < 3; ++c)
-      sum[c] += medium_.channel[c].sigma_a * double(grid_.cell(i).volume) * double(phi[i][c]);
+    for (int c = 0; c < 3; ++c) sum[c] += double(absorption_[i][c] * D_[c] * phi[i][c]);
   return sum;
 }
 

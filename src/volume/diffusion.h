@@ -24,6 +24,11 @@ struct Diffusion {
 
   /// 1 / u(d): flux out of the surface per unit of D phi at depth d.
   double perFluence(double d) const { return 2 * std::exp(-k * d) / scaledU(d); }
+  /// (u'(d) - 1) / u(d): power absorbed in the layer above depth d, per unit of area and D phi at d.
+  double absorbedAbove(double d) const {
+    const double e = std::exp(-k * d), e2 = e * e;
+    return ((1 + e2) + zb * k * (1 - e2) - 2 * e) / scaledU(d);
+  }
   /// v(d - z) / u(d): share of a source at depth z < d that leaves through the surface.
   double leaving(double z, double d) const {
     return z < d ? std::exp(-k * z) * -std::expm1(-2 * k * (d - z)) / (k * scaledU(d)) : 0;
@@ -77,14 +82,16 @@ class DiffusionSystem {
   size_t memoryBytes() const { return (diagonal_.capacity() + exit_.capacity()) * sizeof(Lanes); }
 
  private:
+  void findAbsorption();
   void multiply(const std::vector<Lanes>& x, std::vector<Lanes>& y, std::vector<Lanes>& dots) const;
 
   const Grid& grid_;
   const Surface& surface_;
   DiffusionRgb medium_;
   Lanes D_;
-  std::vector<Lanes> exit_;      ///< a / u(d) of each sample
-  std::vector<Lanes> diagonal_;  ///< of the matrix over D
+  std::vector<Lanes> exit_;        ///< a / u(d) of each sample
+  std::vector<Lanes> absorption_;  ///< of each cell, over D
+  std::vector<Lanes> diagonal_;    ///< of the matrix over D
 };
 
 }  // namespace lychnite::volume
