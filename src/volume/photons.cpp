@@ -16,6 +16,7 @@ using transport::Rng;
 constexpr int kMostMirrorings = 64;  // of one flight inside
 constexpr int kMostBranches = 8;     // of a photon outside
 constexpr float kClearPays = 0.5f;   // a clear way longer than this many mean free paths needs no ray
+constexpr float kDeep = 4;             // reduced mean free paths to a surface, at least
 constexpr float kNegligible = 16;    // mean free paths that nothing passes
 constexpr float kBelowOne = 0.99999994f;
 constexpr float kBranchChance = 4;  // of light that leaves unscattered, per share of the photon
@@ -127,12 +128,17 @@ void Tracer::outside(Photon photon) {
   enter(photon, hit);
 }
 
+/// So far from any surface that diffusion describes all that comes.
+bool Tracer::deep(const Photon& photon) const {
+  return photon.order > 0 && body(photon).clear(photon.position) * least(body(photon).reduced.sigma_t) > kDeep;
+}
+
 /// Inside, from collision to collision, until the last.
 void Tracer::fly(Photon photon) {
   const Body& in = body(photon);
   glm::vec3 u = firstNumbers_;
   while (largest(photon.flux) > 0) {
-    const bool last = photon.collisions == 1;
+    const bool last = photon.collisions == 1 || deep(photon);
     // The last flight is one of the reduced medium: it takes up what anisotropy is left.
     const Medium& medium = last && in.medium.g != 0 ? in.reduced : in.medium;
     if (!advance(photon, medium, u.x)) return;

@@ -75,6 +75,7 @@ class Tracer {
  private:
   void enter(Photon photon, const RayHit& hit);
   void fly(Photon photon);
+  bool deep(const Photon& photon) const;
   bool advance(Photon& photon, const transport::Medium& medium, float u);
   enum class Outcome { kCollided, kGoesOn, kGone };
   Outcome meet(Photon& photon, const transport::Medium& medium, const RayHit& hit, float& u);

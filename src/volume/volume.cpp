@@ -224,6 +224,8 @@ void VolumeSolver::Impl::exchangeLight(LightField& field) {
   stats.exchangeMs += since(start);
 }
 
+static double envOr(const char* n, double d) { const char* e = getenv(n); return e ? atof(e) : d; }
+
 std::vector<Lanes> VolumeSolver::Impl::flux(int object, Orders orders) const {
   const Body& body = *world.bodies[size_t(object)];
   const std::vector<Lanes> none(body.shape->surface.nodes().size(), Lanes{0, 0, 0, 0});
@@ -247,7 +249,7 @@ std::vector<Lanes> VolumeSolver::Impl::flux(int object, Orders orders) const {
   if (orders != Orders::kMultiple) sum = first;
   if (orders != Orders::kFirst)
     for (size_t n = 0; n < sum.size(); ++n) sum[n] += multiple[n];
-  const double w = kWidth;
+  const double w = envOr("SG", kWidth);
   sum = smoother.smoothed(sum, w);
   double before = 0;
   for (double next : {0.25 * w, 0.5 * w, w}) {
