@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <fstream>
 #include <limits>
 #include <sstream>
@@ -74,6 +75,8 @@ class Viewer {
   explicit Viewer(const ViewOptions& options);
   ~Viewer();
   void run();
+  /// Saves the scene under a new name of the settings' folder; returns it, "" when that failed too.
+  std::string rescue();
 
  private:
   struct Shown {
@@ -321,6 +324,14 @@ void Viewer::finish(Clock::time_point start) {
   if (title != title_) window_.setTitle(title_ = title);
 }
 
+std::string Viewer::rescue() {
+  if (session_.empty() || preferencesPath_.empty()) return "";
+  const fs::path path = preferencesPath_.parent_path() / fmt::format("rescued-{}.toml", std::time(nullptr));
+  std::error_code code;
+  fs::create_directories(path.parent_path(), code);
+  return session_.saveSceneAs(path).string();
+}
+
 void Viewer::screenshot(const fs::path& path) {
   const glm::ivec2 pixels = window_.pixels();
   writePng(windowImage(gpu::Framebuffer::ofWindow(pixels.x, pixels.y)), path);
@@ -330,7 +341,17 @@ void Viewer::screenshot(const fs::path& path) {
 
 void runViewer(const ViewOptions& options) {
   Viewer viewer(options);
-  viewer.run();
+  try {
+    viewer.run();
+  } catch (const Error& error) {
+    // A device that was reset takes the window with it, but not the work.
+    if (error.kind() != Error::Kind::kDevice) throw;
+    const std::string kept = viewer.rescue();
+    if (kept.empty()) throw;
+    Error::Parts parts = error.parts();
+    parts.todo = "the scene was kept as " + kept + (parts.todo.empty() ? "" : "; " + parts.todo);
+    throw Error(parts, error.kind());
+  }
 }
 
 }  // namespace lychnite::viewer

@@ -29,6 +29,9 @@ void lowerThreadPriority() {
 
 namespace {
 
+constexpr double kFirstSamples = 0.125;  // photons a pixel of the first picture; every round doubles them,
+constexpr double kMostNewSamples = 4;    // up to so many more
+
 int defaultThreads() {
   const int cores = int(std::thread::hardware_concurrency());
   return std::max(1, cores / 2);
@@ -90,7 +93,8 @@ void BackgroundWalk::Impl::work(const std::stop_token& stop) {
   }
 }
 
-/// Rounds of growing length, each of which goes on from the one before.
+/// Rounds of growing length, each of which goes on from the one before. By photons and not by time, because
+/// a busy machine may leave a thread of low priority none.
 void BackgroundWalk::Impl::refine(const Job& job, uint64_t mine) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
@@ -101,8 +105,8 @@ void BackgroundWalk::Impl::refine(const Job& job, uint64_t mine) {
   settings.noise = 0;
   std::shared_ptr<const Image> last;
   const Progress progress([&](const Progress::Update&) { return version == mine; });
-  for (double seconds = 1.5;; seconds = std::min(2 * seconds, 60.0)) {
-    settings.timeLimit = seconds;
+  for (double samples = kFirstSamples;; samples += std::min(samples, kMostNewSamples)) {
+    settings.samples = samples;
     const ReferenceOptions options{.resume = last.get(), .keepState = true};
     auto image = std::make_shared<const Image>(renderReference(job.scene, settings, progress, {}, options));
     if (version != mine) return;
