@@ -98,7 +98,8 @@ bool Hands::controlKey(int key, bool shift, PanelContext& context) {
     case GLFW_KEY_P: {
       const Controls& controls = context.controls;
       session.savePicture(controls.pictureWidth > 0 ? controls.pictureWidth : context.picturePixels.x,
-                          controls.pictureHeight > 0 ? controls.pictureHeight : context.picturePixels.y);
+                          controls.pictureHeight > 0 ? controls.pictureHeight : context.picturePixels.y, {},
+                          shift ? ".exr" : ".png");
       return true;
     }
     case GLFW_KEY_Q:

@@ -157,7 +157,7 @@ void drawKeys(ImDrawList& draw, const Area& area, double s) {
                                          {"C, D", "wipe, difference"},
                                          {"Ctrl+Z, Ctrl+Shift+Z", "undo, redo"},
                                          {"Ctrl+S", "save the scene"},
-                                         {"Ctrl+P", "write a picture"},
+                                         {"Ctrl+P, Ctrl+Shift+P", "write a PNG, an EXR"},
                                          {"H", "these keys"}};
   const double line = double(ImGui::GetTextLineHeightWithSpacing());
   const glm::dvec2 at = area.low + glm::dvec2(16 * s, 40 * s);

@@ -44,7 +44,7 @@ void pictureRow(PanelContext& context) {
   if (context.ui.button("Write PNG", "Ctrl+P. Exactly what `lychnite render` of the saved scene gives."))
     context.session.savePicture(width, height);
   ImGui::SameLine();
-  if (context.ui.button("Write EXR", "Linear values, all of them.")) {
+  if (context.ui.button("Write EXR", "Ctrl+Shift+P. Linear values, all of them.")) {
     const std::filesystem::path stem = std::filesystem::path(context.session.documentName()).stem();
     context.session.savePicture(width, height, {}, ".exr");
   }

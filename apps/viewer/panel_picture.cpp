@@ -125,7 +125,7 @@ void drawNumbers(PanelContext& context) {
       context.ui.note("The walk begins when the picture rests.");
   }
   if (const auto& error = context.view.error())
-    context.ui.note(fmt::format("Relative RMSE {:.1f} %, bias {:+.1f} %, SSIM {:.3f}",
+    context.ui.note(fmt::format("Relative RMSE {:.1f} %\nBias {:+.1f} %, SSIM {:.3f}",
                                 100 * error->relative_rmse, 100 * error->bias, error->ssim));
   else if (!context.view.errorProblem().empty())
     context.ui.note(context.view.errorProblem());
@@ -161,7 +161,7 @@ void drawMethodSection(PanelContext& context) {
   ui.slider("Along the ray", "Samples of single scattering along the refracted eye ray.",
             settings.singleSamples, 1, 64);
   chooseMap(ui, settings.mapSize);
-  ui.check("Multiple", "Light scattered more than once. M.", settings.components.multiple);
+  ui.check("Multiple", "Light scattered more than once.", settings.components.multiple);
   ImGui::SameLine();
   ui.check("Single", "Light scattered once.", settings.components.single);
   ImGui::SameLine();

@@ -60,7 +60,7 @@ bool LivePicture::update(const ViewState& state, glm::ivec2 pixels, double scale
   const double wanted = rest ? 1 : scale;
   const bool changed = key != key_;
   if (!changed && drawn_ && drawnScale_ >= wanted) return false;
-  if (!renderer_) renderer_ = std::make_unique<Renderer>(options_);
+  prepare();
   RenderSettings settings = state.settings;
   settings.aovs.clear();
   settings.width = std::max(1, int(std::lround(pixels.x * wanted)));
@@ -89,11 +89,13 @@ void Pace::measured(double ms, double idleMs) {
 }
 
 PictureView::PictureView(const RendererOptions& options, int walkThreads)
-    : live_(options, "view"),
-      variant_(options, "variant"),
+    : live_(options),
+      variant_(options),
       pace_(gpu::Context({.current = true}).device().software),
       walk_(walkThreads),
-      idleMs_(kMillisecondsIdle) {}
+      idleMs_(kMillisecondsIdle) {
+  live_.prepare();
+}
 
 bool PictureView::compares(Source source) const {
   return compare_.mode != CompareView::Mode::kOff && (compare_.left == source || compare_.right == source);

@@ -16,11 +16,15 @@ namespace lychnite::viewer {
 /// One picture of the real-time renderer that follows its scene: coarse while things move, whole at rest.
 class LivePicture {
  public:
-  LivePicture(const RendererOptions& options, const char* name) : options_(options), name_(name) {}
+  explicit LivePicture(const RendererOptions& options) : options_(options) {}
 
   /// Draws what changed; `rest` asks for the full resolution. True when something was drawn.
   bool update(const ViewState& state, glm::ivec2 pixels, double scale, bool rest);
-  void forget() { *this = LivePicture(options_, name_); }
+  /// Makes the renderer (compiles its shaders) before it is needed.
+  void prepare() {
+    if (!renderer_) renderer_ = std::make_unique<Renderer>(options_);
+  }
+  void forget() { *this = LivePicture(options_); }
   bool ready() const { return renderer_ && drawn_; }
   bool whole() const { return ready() && drawnScale_ >= 1; }
   const gpu::Texture& texture() const;
@@ -31,7 +35,6 @@ class LivePicture {
 
  private:
   RendererOptions options_;
-  const char* name_;
   std::unique_ptr<Renderer> renderer_;
   std::string key_;
   bool drawn_ = false;

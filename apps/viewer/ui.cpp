@@ -69,7 +69,7 @@ std::string markName(const std::string& label) {
   std::string name;
   for (const char c : label.substr(0, label.find(','))) {
     const auto byte = static_cast<unsigned char>(c);
-    if (byte == 0xcf) name += "sigma";  // the first byte of the one Greek letter that names need
+    if (byte == 0xcf) name += "sigma-";  // the first byte of the one Greek letter that names need
     if (byte >= 0x80) continue;
     const bool plain = std::isalnum(byte) != 0;
     if (plain)

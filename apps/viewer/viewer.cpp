@@ -287,7 +287,7 @@ void Viewer::takeMessages() {
 
 void Viewer::draw(PanelContext& context, const Layout& layout) {
   // Before the panel: what it shows must stay as it is until the window is drawn.
-  swatchesLeft_ = view_.settled() && swatches_.drawOne(view_.display());
+  swatchesLeft_ = !view_.settled() || swatches_.drawOne(view_.display());
   ui_.begin(frameSeconds_);
   drawPanel(context, layout.panel);
   drawSizeBar(context, layout.bar);
