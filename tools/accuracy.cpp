@@ -2,7 +2,7 @@
 // and materials. The walk is rendered twice, independently, so that its noise is not counted as error.
 //
 // Usage: accuracy --references DIR [--models DIR] [--methods a,b,...] [--pictures DIR] > tables.md
-//   --references  the walk's pictures are kept there, and found again
+//   --references  the walk's pictures and the scores are kept there, and found again
 //   --models      folder of bunny_filled.ply and nefertiti.ply; what is not there is left out, and said
 //   --methods     profiles (summed by `hierarchical`) and methods; default: the four profiles
 //   --pictures    also writes the pictures side by side
@@ -11,9 +11,11 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <map>
 
 #include "lychnite/app/image_maker.h"
+#include "lychnite/base/atomic_file.h"
 #include "lychnite/base/error.h"
 #include "lychnite/base/text.h"
 #include "lychnite/image/io.h"
@@ -32,7 +34,7 @@ constexpr const char* kMaterials[] = {"fig6", "marble", "skin1", "wholemilk", "s
 constexpr const char* kModels[] = {"sphere", "figurine", "bunny_filled", "nefertiti"};
 constexpr ParallelLight kLight{.azimuth = 150, .elevation = 20};
 constexpr int kResolution = 80;
-constexpr double kSecondsOfAHalf = 5, kNoiseOfAHalf = 0.04;  // whichever comes first
+constexpr double kSecondsOfAHalf = 3, kNoiseOfAHalf = 0.06;  // whichever comes first
 
 /// A method under test, and what it is held against: a whole radiosity, or the radiance of orders two and up.
 struct Column {
@@ -134,7 +136,18 @@ class Study {
     return image;
   }
 
+  /// What a column scores in a cell; kept beside the references, so that a study can be stopped and gone on
+  /// with.
   Accuracy measure(const Cell& cell, const Column& column) {
+    const fs::path path = references_ / fmt::format("{}-{}.txt", cell.name(), column.name);
+    Accuracy accuracy;
+    if (std::ifstream(path) >> accuracy.rmse >> accuracy.error >> accuracy.bias) return accuracy;
+    accuracy = measureAnew(cell, column);
+    writeTextAtomically(path, fmt::format("{} {} {}\n", accuracy.rmse, accuracy.error, accuracy.bias));
+    return accuracy;
+  }
+
+  Accuracy measureAnew(const Cell& cell, const Column& column) {
     const Image first = truth(cell, 0, kResolution, kSecondsOfAHalf, kNoiseOfAHalf);
     const Image second = truth(cell, 1, kResolution, kSecondsOfAHalf, kNoiseOfAHalf);
     return accuracyOf(values(cell, column, kResolution), first, second, column.fromSecond ? "" : "radiosity");

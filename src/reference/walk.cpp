@@ -315,6 +315,7 @@ void Walk::describe(Image& image) const {
   image.metadata["absorbed"] = share(tally_.absorbed);
   image.metadata["blocked"] = share(tally_.blocked);
   image.metadata["lost"] = share(tally_.lost);
+  image.metadata["ended"] = share(tally_.ended);
 }
 
 void Walk::saveState(Image& image) const {

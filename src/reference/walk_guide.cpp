@@ -12,6 +12,8 @@ using Cell = WalkGuideSamples::Cell;
 constexpr float kEnoughFans = 24;  // to judge a cell by itself
 constexpr float kPrior = 4;        // fans of the usual kind that every cell is taken to have seen as well
 constexpr float kMostKappa = 12;
+constexpr float kEnoughPassing = 150;  // collisions
+constexpr float kLeastRoot = 0.1f, kMostRoot = 10;  // of the usual one
 
 void add(WalkGuideSamples::Start& sum, const WalkGuideSamples::Start& other) {
   sum.count += other.count;
@@ -30,7 +32,7 @@ void add(Cell& sum, const Cell& other) {
 
 /// The cell, or the smallest cube of cells around it (on the grid of its size) that saw enough.
 template <class T>
-T judged(const std::vector<T>& cells, size_t cell) {
+T judged(const std::vector<T>& cells, size_t cell, float enough = kEnoughFans) {
   constexpr size_t n = WalkGuideSamples::kCells;
   const size_t x = cell % n, y = cell / n % n, z = cell / (n * n);
   T sum;
@@ -40,7 +42,7 @@ T judged(const std::vector<T>& cells, size_t cell) {
       for (size_t j = y / side * side; j < y / side * side + side; ++j)
         for (size_t i = x / side * side; i < x / side * side + side; ++i)
           add(sum, cells[(k * n + j) * n + i]);
-    if (sum.count >= kEnoughFans) break;
+    if (sum.count >= enough) break;
   }
   return sum;
 }
@@ -59,6 +61,7 @@ WalkGuide::Lobe lobeOf(const Cell& cell) {
 void WalkGuideSamples::merge(const WalkGuideSamples& other) {
   for (size_t i = 0; i < cells.size(); ++i) add(cells[i], other.cells[i]);
   for (size_t i = 0; i < starts.size(); ++i) add(starts[i], other.starts[i]);
+  for (size_t i = 0; i < passing.size(); ++i) add(passing[i], other.passing[i]);
   commonSquares += other.commonSquares;
 }
 
@@ -76,6 +79,24 @@ std::vector<float> WalkGuideSamples::startImportance() const {
   return importance;
 }
 
+std::vector<float> WalkGuideSamples::idealWeights() const {
+  std::vector<float> root(passing.size());
+  for (size_t i = 0; i < root.size(); ++i) {
+    const Start p = judged(passing, i, kEnoughPassing);
+    root[i] = p.cost > 0 ? std::sqrt(p.squares / p.cost) : 0;
+  }
+  // Where photons start they should go on as they are.
+  double sum = 0, count = 0;
+  for (size_t i = 0; i < root.size(); ++i) {
+    sum += double(starts[i].count) * double(root[i]);
+    count += double(starts[i].count);
+  }
+  if (!(sum > 0)) return {};
+  const auto usual = float(sum / count);
+  for (float& r : root) r = usual / std::clamp(r, kLeastRoot * usual, kMostRoot * usual);
+  return root;
+}
+
 glm::vec3 WalkGuide::Lobe::draw(float u, float phi) const {
   const float cosine = 1 + std::log(u + (1 - u) * std::exp(-2 * kappa)) / kappa;
   return transport::deflected(mean, std::fmax(cosine, -1.0f), phi);
@@ -87,7 +108,7 @@ float WalkGuide::Lobe::density(const glm::vec3& direction) const {
 }
 
 WalkGuide::WalkGuide(const WalkGuideSamples& samples, double photons, double work)
-    : places_(samples.cells.size()) {
+    : places_(samples.cells.size()), ideal_(samples.idealWeights()) {
   std::vector<double> root(places_.size());
   double largest = 0;
   Cell all;

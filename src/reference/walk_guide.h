@@ -22,7 +22,7 @@ struct WalkGuideSamples {
     glm::vec3 towards{0};  ///< sum of splats times direction
     float splats = 0;      ///< how many
   };
-  WalkGuideSamples() : cells(size_t(kCells) * kCells * kCells), starts(cells.size()) {}
+  WalkGuideSamples() : cells(size_t(kCells) * kCells * kCells), starts(cells.size()), passing(cells.size()) {}
 
   static size_t cellOf(const glm::vec3& p) {
     size_t index = 0;
@@ -41,9 +41,14 @@ struct WalkGuideSamples {
   /// How often photons should start in a cell against their share of the power, for the least variance times
   /// cost. About 1 on average and nowhere near 0.
   std::vector<float> startImportance() const;
+  /// How heavy a photon should be in each cell, over what it carries on average at the start, so that it goes
+  /// on alone: 1 / root of (what it will add to the variance, over its weight squared, per cost).
+  std::vector<float> idealWeights() const;
 
   std::vector<Cell> cells;
   std::vector<Start> starts;
+  std::vector<Start>
+      passing;  ///< the same of photons that collide in a cell, from there on, for a unit of weight
   double commonSquares = 0;  ///< what photons add to the variance that more fans would not lessen
 };
 
@@ -68,6 +73,11 @@ class WalkGuide {
   /// pilot.
   WalkGuide(const WalkGuideSamples& samples, double photons, double work);
 
+  /// idealWeights() of p's cell; 0 where nothing is known.
+  float idealWeight(const glm::vec3& p) const {
+    return ideal_.empty() ? 0 : ideal_[WalkGuideSamples::cellOf(p)];
+  }
+
   /// How many fans a collision at p sends on average. `reach` is the most that a splat of it could carry,
   /// over what the photon started with.
   float fans(const glm::vec3& p, float reach) const {
@@ -85,6 +95,7 @@ class WalkGuide {
     return places_.size() == 1 ? places_.front() : places_[WalkGuideSamples::cellOf(p)];
   }
   std::vector<Place> places_;
+  std::vector<float> ideal_;
 };
 
 }  // namespace lychnite

@@ -14,6 +14,8 @@ constexpr float kGoldenAngle = 2.39996323f;
 constexpr int kFollowed = 2;        // mirrorings inside that a fan's rays go through
 constexpr float kFollowChance = 2;  // of a ray that carries all of the photon's flux
 constexpr int kUnaccounted = 1000;  // mirrorings of a photon whose exit no fan stands for
+constexpr int kMostParts = 8;       // of one splitting
+constexpr float kTooLight = 0.4f;   // of the ideal weight: ended by chance below
 constexpr int kByPhase =
     2;  // rays of a fan that follow the phase function, where the guide knows better ones
 
@@ -33,6 +35,7 @@ WalkTally& WalkTally::operator+=(const WalkTally& other) {
   absorbed += other.absorbed;
   blocked += other.blocked;
   lost += other.lost;
+  ended += other.ended;
   rays += other.rays;
   collisions += other.collisions;
   fans += other.fans;
@@ -55,8 +58,66 @@ void WalkPhotons::fly(double u, int channel) {
   splats_.clear();
   sources_ = 0;
   arrive(start.hit);
-  while (alive_) object_ < 0 ? stepOutside() : stepInside();
-  if (learn_) learnPhoton(start, float(tally_.cost() - costBefore));
+  passed_.clear();
+  squares_ = 0;
+  startCost_ = costBefore;
+  for (;;) {
+    while (alive_) object_ < 0 ? stepOutside() : stepInside();
+    if (twins_.empty()) break;
+    takeTwin();
+  }
+  if (learn_) {
+    learnPhoton(start, float(tally_.cost() - costBefore));
+    learnPassed(float(tally_.cost() - costBefore));
+  }
+}
+
+void WalkPhotons::learnPassed(float cost) {
+  for (const Passed& p : passed_) {
+    auto& cell = learn_->passing[WalkGuideSamples::cellOf(p.position)];
+    cell.count += 1;
+    cell.squares += (squares_ - p.squares) / (p.weight * p.weight);
+    cell.cost += cost - p.cost;
+  }
+}
+
+bool WalkPhotons::survives(float threshold) {
+  const glm::vec3 before = weight_.flux();
+  const bool goesOn = weight_.survives(threshold, rng_);
+  tally_.ended += Rgb(before) - (goesOn ? Rgb(weight_.flux()) : Rgb(0));
+  return goesOn;
+}
+
+/// Splits a photon that is heavier than it should be here, or ends a light one by chance; returns whether it
+/// goes on.
+bool WalkPhotons::splitOrEnd() {
+  const float ideal = guide_.idealWeight(position_) * world_.fluxUnit;
+  if (!(ideal > 0)) return survives(kRouletteBelow * world_.fluxUnit);
+  const float heavy = weight_.largest() / ideal;
+  if (heavy > 2) {
+    const int parts = std::min(int(heavy + rng_.uniform()), kMostParts);
+    weight_.scale(1 / float(parts));
+    for (int i = 1; i < parts; ++i)
+      twins_.push_back({weight_, position_, direction_, object_, shells_, order_});
+    return true;
+  }
+  return survives(kTooLight * ideal);
+}
+
+void WalkPhotons::takeTwin() {
+  const Twin& twin = twins_.back();
+  weight_ = twin.weight;
+  position_ = twin.position;
+  direction_ = twin.direction;
+  object_ = twin.object;
+  shells_ = twin.shells;
+  order_ = twin.order;
+  twins_.pop_back();
+  alive_ = true;
+  ahead_ = -1;
+  clear_ = -1;
+  mirrorings_ = 0;
+  afterCollision();
 }
 
 /// What this photon adds to the picture's variance: its splats in one pixel add up. What splats of different
@@ -164,9 +225,16 @@ void WalkPhotons::collide(float distance) {
   if (!world_.distance[size_t(object_)]->contains(position_)) return lose();
   tally_.absorbed += Rgb(weight_.scatter(medium(), distance));
   ++order_;
-  alive_ = weight_.survives(kRouletteBelow * world_.fluxUnit, rng_);
+  if (learn_ && weight_.largest() > 0)
+    passed_.push_back(
+        {position_, weight_.largest() / world_.fluxUnit, squares_, float(tally_.cost() - startCost_)});
+  alive_ = splitOrEnd();
   if (!alive_) return;
   mirrorings_ = 0;
+  afterCollision();
+}
+
+void WalkPhotons::afterCollision() {
   if (order_ >= firstOrder())
     goOn();
   else
@@ -299,6 +367,7 @@ void WalkPhotons::splatExits(const RayFan& fan, float expected, float reach) {
 void WalkPhotons::learnSplat(int64_t pixel, const glm::vec3& direction, float value, float each,
                              float reach) {
   splats_.push_back({pixel, sources_, value, each});
+  squares_ += value * value;
   auto& cell = learn_->cells[WalkGuideSamples::cellOf(position_)];
   cell.squares += value * value / (reach * reach * each);
   cell.light += value;
@@ -331,7 +400,9 @@ void WalkPhotons::splatIfSeen(const RayHit& hit, const glm::vec3& flux) {
   tally_.rays += 1;
   if (world_.rays->occluded(offPoint(hit, seen.direction), seen.direction, seen.distance)) return;
   const float value = splat(hit, seen, flux);
-  if (learn_) splats_.push_back({seen.pixel, 0, value, 1});
+  if (!learn_) return;
+  splats_.push_back({seen.pixel, 0, value, 1});
+  squares_ += value * value;
 }
 
 void WalkPhotons::meet(const RayHit& hit) {

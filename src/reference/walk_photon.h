@@ -37,6 +37,7 @@ struct WalkTally {
   Rgb absorbed{0};  ///< in the media (expected values)
   Rgb blocked{0};   ///< on opaque objects
   Rgb lost{0};      ///< through holes of meshes that are not closed, and numerical leaks
+  Rgb ended{0};     ///< by Russian roulette, less what the survivors got for it: 0 on average
   double rays = 0, collisions = 0, fans = 0;  ///< work done
 
   WalkTally& operator+=(const WalkTally& other);
@@ -45,7 +46,7 @@ struct WalkTally {
 
 /// Flies photons one after the other. Exits of light from its last collision are splatted in expectation, by
 /// fans of rays from collisions (as many as WalkGuide says); those after an internal reflection where they
-/// happen.
+/// happen. Photons that come to where the picture is decided are split, others ended by chance (WalkGuide).
 class WalkPhotons {
  public:
   WalkPhotons(const WalkWorld& world, const WalkGuide& guide, WalkFilm* film, WalkGuideSamples* learn,
@@ -63,6 +64,10 @@ class WalkPhotons {
   void collide(float distance);
   void meet(const RayHit& hit);
   void leave(const RayHit& hit, float cosI);
+  bool survives(float threshold);
+  bool splitOrEnd();
+  void takeTwin();
+  void afterCollision();
   void goOn();
   void openFan();
   void splatFan(float expected, float reach);
@@ -71,6 +76,7 @@ class WalkPhotons {
   void learnSplat(int64_t pixel, const glm::vec3& direction, float value, float each, float reach);
   float splat(const RayHit& hit, const WalkLens::Seen& seen, const glm::vec3& flux);
   void splatIfSeen(const RayHit& hit, const glm::vec3& flux);
+  void learnPassed(float cost);
   void learnPhoton(const WalkEmission::Start& start, float cost);
   void lose() {
     tally_.lost += Rgb(weight_.flux());
@@ -110,6 +116,21 @@ class WalkPhotons {
   };
   std::vector<Splat> splats_;
   int sources_ = 0;
+  /// Collisions of this photon, kept only while learning.
+  struct Passed {
+    glm::vec3 position;
+    float weight, squares, cost;  ///< squares and cost: of the photon until then
+  };
+  std::vector<Passed> passed_;
+  double startCost_ = 0;
+  float squares_ = 0;  ///< of its splats so far
+  /// A photon that waits for its turn after a splitting.
+  struct Twin {
+    transport::PathWeight weight;
+    glm::vec3 position, direction;
+    int object, shells, order;
+  };
+  std::vector<Twin> twins_;
 };
 
 }  // namespace lychnite

@@ -28,7 +28,8 @@ struct ReferenceOptions {
 /// "radiosity", of all orders of scattering, and "stderr", the standard error of multiple and single
 /// together, from independent batches. Metadata: photons, photons_per_pixel, batches, single_passes, seconds,
 /// noise (root mean square of the standard error over the mean, covered pixels, RGB together), and shares of
-/// the arriving power, per channel: escaped, absorbed, blocked (on opaque objects), lost (through holes of
+/// the arriving power, per channel: escaped, absorbed, blocked (on opaque objects), ended (by Russian
+/// roulette, net: 0 on average), lost (through holes of
 /// meshes that are not closed; there inside is undefined, and a warning is logged).
 Image renderReference(const Scene& scene, const RenderSettings& settings, const Progress& progress = {},
                       const LogSink& log = {}, const ReferenceOptions& options = {});
