@@ -16,7 +16,8 @@ using transport::Rng;
 constexpr int kMostMirrorings = 64;  // of one flight inside
 constexpr int kMostBranches = 8;     // of a photon outside
 constexpr float kClearPays = 0.5f;   // a clear way longer than this many mean free paths needs no ray
-constexpr float kDeep = 4;             // reduced mean free paths to a surface, at least
+constexpr float kDeep = 4;           // reduced mean free paths to a surface, at least
+constexpr float kMostLonger = 4;     // times as many collisions where g is near 1
 constexpr float kNegligible = 16;    // mean free paths that nothing passes
 constexpr float kBelowOne = 0.99999994f;
 constexpr float kBranchChance = 4;  // of light that leaves unscattered, per share of the photon
@@ -130,20 +131,24 @@ void Tracer::outside(Photon photon) {
 
 /// So far from any surface that diffusion describes all that comes.
 bool Tracer::deep(const Photon& photon) const {
-  return photon.order > 0 && body(photon).clear(photon.position) * least(body(photon).reduced.sigma_t) > kDeep;
+  return photon.order > 0 &&
+         body(photon).clear(photon.position) * least(body(photon).reduced.sigma_t) > kDeep;
 }
 
 /// Inside, from collision to collision, until the last.
 void Tracer::fly(Photon photon) {
   const Body& in = body(photon);
   glm::vec3 u = firstNumbers_;
+  // Where scattering goes forwards it takes more collisions to come as near to diffusion.
+  const float longer = std::clamp(1 / (1 - in.medium.g), 1.0f, kMostLonger);
+  int left = std::max(1, int(std::lround(float(photon.collisions) * longer)));
   while (largest(photon.flux) > 0) {
-    const bool last = photon.collisions == 1 || deep(photon);
-    // The last flight is one of the reduced medium: it takes up what anisotropy is left.
-    const Medium& medium = last && in.medium.g != 0 ? in.reduced : in.medium;
+    const bool last = left == 1 || deep(photon);
+    // The last flight is one of the isotropic medium of equal sigma_sp: it takes up what anisotropy is left.
+    const Medium& medium = last ? in.reduced : in.medium;
     if (!advance(photon, medium, u.x)) return;
     ++photon.order;
-    --photon.collisions;
+    --left;
     if (last) return handOver(photon);
     photon.direction = transport::deflected(
         photon.direction, transport::henyeyGreensteinCosine(u.y, medium.g), 2 * transport::kPi * u.z);

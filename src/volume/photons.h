@@ -49,7 +49,7 @@ struct Photon {
   int channel = 0;
   int object = -1;     ///< -1 outside
   int order = 0;       ///< collisions so far
-  int collisions = 1;  ///< still to be traced
+  int collisions = 1;  ///< to be traced, of a medium of g = 0
   int branch = 0;      ///< generations of branches off the first path
 };
 

@@ -37,7 +37,8 @@ class Looker {
     PixelLight sum;
     for (int j = 0; j < kRaster; ++j)
       for (int i = 0; i < kRaster; ++i) {
-        const glm::dvec3 direction = camera_.direction(column + (i + 0.5) / kRaster, row + (j + 0.5) / kRaster);
+        const glm::dvec3 direction =
+            camera_.direction(column + (i + 0.5) / kRaster, row + (j + 0.5) / kRaster);
         const RayHit hit = rays_.nearest(glm::vec3(camera_.position), glm::vec3(direction));
         if (!hit) continue;
         const glm::vec3 view(-direction);

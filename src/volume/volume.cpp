@@ -23,7 +23,9 @@ namespace {
 
 // Share of lines through a mesh along which inside may be undefined: pinholes, slivers of self-intersection.
 constexpr double kUndefined = 0.01;
-constexpr double kWidth = 2;            // standard deviation of the smoothing on the surface, in voxels
+// Standard deviation of the smoothing on the surface, in voxels: after the first pass of photons and at
+// least.
+constexpr double kWidth = 1.6, kLeastWidth = 0.7;
 constexpr double kBandWave = 1.9;       // times 1/width: where the band between two widths has its peak
 constexpr int kExchangeCollisions = 2;  // of light that meets another surface, before the solver takes over
 
@@ -224,8 +226,6 @@ void VolumeSolver::Impl::exchangeLight(LightField& field) {
   stats.exchangeMs += since(start);
 }
 
-static double envOr(const char* n, double d) { const char* e = getenv(n); return e ? atof(e) : d; }
-
 std::vector<Lanes> VolumeSolver::Impl::flux(int object, Orders orders) const {
   const Body& body = *world.bodies[size_t(object)];
   const std::vector<Lanes> none(body.shape->surface.nodes().size(), Lanes{0, 0, 0, 0});
@@ -249,7 +249,8 @@ std::vector<Lanes> VolumeSolver::Impl::flux(int object, Orders orders) const {
   if (orders != Orders::kMultiple) sum = first;
   if (orders != Orders::kFirst)
     for (size_t n = 0; n < sum.size(); ++n) sum[n] += multiple[n];
-  const double w = envOr("SG", kWidth);
+  const double w =
+      std::clamp(kWidth * std::pow(double(std::max(1, stats.passes)), -0.25), kLeastWidth, kWidth);
   sum = smoother.smoothed(sum, w);
   double before = 0;
   for (double next : {0.25 * w, 0.5 * w, w}) {
