@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lychnite/base/error.h"
 #include "lychnite/gpu/context.h"
 #include "technique/read_back.h"
 #include "technique/renderer_textures.h"
@@ -66,10 +67,16 @@ bool LivePicture::update(const ViewState& state, glm::ivec2 pixels, double scale
   settings.width = std::max(1, int(std::lround(pixels.x * wanted)));
   settings.height = std::max(1, int(std::lround(pixels.y * wanted)));
   key_ = std::move(key);
-  drawn_ = false;
-  renderer_->draw(state.scene, settings);
-  drawn_ = true;
   drawnScale_ = wanted;
+  try {
+    renderer_->draw(state.scene, settings);
+    drawn_ = true;
+  } catch (const Error& error) {
+    if (error.kind() == Error::Kind::kDevice) throw;
+    // A scene that a hand made and the method cannot draw (a point light inside the object): the picture
+    // stays.
+    if (changed) problem_ = error.what();
+  }
   return true;
 }
 
@@ -262,6 +269,14 @@ void PictureView::frameTook(double ms) {
     pace_.measured(ms, idleMs_);
   else
     idleMs_ += 0.2 * (std::min(ms, 30.0) - idleMs_);
+}
+
+std::vector<std::string> PictureView::takeProblems() {
+  std::vector<std::string> problems;
+  for (LivePicture* picture : {&live_, &variant_})
+    if (std::string problem = picture->takeProblem(); !problem.empty())
+      problems.push_back(std::move(problem));
+  return problems;
 }
 
 void PictureView::forget() {

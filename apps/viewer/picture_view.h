@@ -4,6 +4,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "display.h"
 #include "lychnite/app/background.h"
@@ -25,18 +27,20 @@ class LivePicture {
     if (!renderer_) renderer_ = std::make_unique<Renderer>(options_);
   }
   void forget() { *this = LivePicture(options_); }
-  bool ready() const { return renderer_ && drawn_; }
+  bool ready() const { return drawn_; }
   bool whole() const { return ready() && drawnScale_ >= 1; }
   const gpu::Texture& texture() const;
   const Renderer& renderer() const { return *renderer_; }
   const RenderStats& stats() const { return renderer_->stats(); }
+  /// Why the newest state could not be drawn (once); the picture is then an older one.
+  std::string takeProblem() { return std::exchange(problem_, {}); }
   /// Changes with everything that the picture shows.
   const std::string& key() const { return key_; }
 
  private:
   RendererOptions options_;
   std::unique_ptr<Renderer> renderer_;
-  std::string key_;
+  std::string key_, problem_;
   bool drawn_ = false;
   double drawnScale_ = 0;
 };
@@ -89,6 +93,8 @@ class PictureView {
   /// Of left against right, when both are whole.
   const std::optional<Metrics>& error() const { return error_; }
   const std::string& errorProblem() const { return errorProblem_; }
+  /// What could not be drawn, each once.
+  std::vector<std::string> takeProblems();
   /// Mip levels of the light-space map shown.
   int mapLevels() const { return mapLevels_; }
   Display& display() { return display_; }

@@ -219,7 +219,10 @@ bool Viewer::slow() const {
 
 void Viewer::run() {
   while (!quit_ && !window_.closing() && !hands_.quit()) {
-    const double wait = quick() ? 0 : player_ ? kPlayedFrame : slow() ? kSlowSeconds : 2 * kSlowSeconds;
+    const double wait = quick() && window_.visible() ? 0
+                        : player_                    ? kPlayedFrame
+                        : slow()                     ? kSlowSeconds
+                                                     : 2 * kSlowSeconds;
     std::vector<InputEvent> events = window_.events(wait);
     const double now = std::chrono::duration<double>(Clock::now() - began_).count();
     if (player_) events = player_->next(window_, ui_, now);
@@ -302,6 +305,7 @@ void Viewer::draw(PanelContext& context, const Layout& layout) {
                   .moving = hands_.holding() || ui_.busy() || controls_.animation.running(),
                   .seconds = seconds_,
                   .file = session_.picture()});
+  for (const std::string& problem : view_.takeProblems()) session_.say(problem, true);
   target.clearColour(0, {0.05f, 0.05f, 0.052f, 1});
   view_.show(target, {0, pixels.y - area.y, area.x, area.y}, session_.state());
   ui_.end();

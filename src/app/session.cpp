@@ -174,6 +174,8 @@ void Session::take(Loading& done) {
     if (isPicture(done.path)) {
       picture_ = std::make_shared<const Image>(std::get<Image>(done.result.get()));
       pictureName_ = fs::path(done.path).filename().string();
+      commit();
+      state_.compare = {.mode = CompareView::Mode::kWipe, .right = CompareView::Source::kFile};
       say(fmt::format("{}: {} x {}, to compare with", pictureName_, picture_->width(), picture_->height()));
     } else if (fs::path(done.path).extension() == ".toml") {
       takeScene(done);

@@ -154,6 +154,7 @@ TEST(Session, APictureIsOpenedToCompareWith) {
   EXPECT_EQ(session.picture()->width(), 3);
   EXPECT_EQ(session.pictureName(), "truth.exr");
   EXPECT_EQ(session.documentName(), "sphere");
+  EXPECT_EQ(session.state().compare.right, CompareView::Source::kFile);
 }
 
 TEST(Session, PicturesAreWrittenBehindUnderNamesOfTheirOwn) {
