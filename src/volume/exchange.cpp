@@ -13,7 +13,7 @@ namespace {
 
 using transport::Rng;
 
-constexpr int kRays = 4;  // of a node
+constexpr int kRays = 2;  // of a node
 constexpr size_t kBlock = 1024;
 constexpr uint64_t kStream = uint64_t(1) << 40;
 

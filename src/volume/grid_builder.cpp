@@ -109,40 +109,54 @@ void Grid::Builder::measureParts() {
       }
 }
 
+/// Adds up the openings of each pair of parts across each axis. Most parts have one neighbour on the upper
+/// side of an axis, which has its own slot; the others are sorted.
 void Grid::Builder::findOpenings() {
   const int axis = columns.axis(), u = columns.u(), v = columns.v();
   const int width = columns.across(u), height = columns.across(v), per = columns.perCell();
   const auto pitch = float(columns.pitch());
+  struct Slot {
+    uint32_t to = kNone;
+    float area = 0;
+  };
+  std::vector<Slot> slots(parts_.size() * 3);
+  const auto add = [&](uint32_t a, uint32_t b, int across, float area) {
+    Slot& slot = slots[size_t(a) * 3 + size_t(across)];
+    if (slot.to == kNone) slot.to = b;
+    if (slot.to == b)
+      slot.area += area;
+    else
+      openings_.push_back({a, b, uint8_t(across), area});
+  };
   for (int j = 0; j < height; ++j)
     for (int i = 0; i < width; ++i) {
       const size_t here = line(i, j);
       for (uint32_t s = grid.firstSegment_[here]; s + 1 < grid.firstSegment_[here + 1]; ++s)
         if (layer_[s + 1] == layer_[s] + 1 &&
             grid.segments_[s + 1].low <= grid.segments_[s].high + kLeastLength)
-          openings_.push_back({part_[s], part_[s + 1], uint8_t(axis), pitch * pitch});
-      const auto add = [&](int across) {
+          add(part_[s], part_[s + 1], axis, pitch * pitch);
+      const auto sideways = [&](int across) {
         return [&, across](uint32_t a, uint32_t b, float length) {
-          openings_.push_back({part_[a], part_[b], uint8_t(across), length * pitch});
+          add(part_[a], part_[b], across, length * pitch);
         };
       };
-      if ((i + 1) % per == 0 && i + 1 < width) touching(here, line(i + 1, j), add(u));
-      if ((j + 1) % per == 0 && j + 1 < height) touching(here, line(i, j + 1), add(v));
+      if ((i + 1) % per == 0 && i + 1 < width) touching(here, line(i + 1, j), sideways(u));
+      if ((j + 1) % per == 0 && j + 1 < height) touching(here, line(i, j + 1), sideways(v));
     }
-  // One opening for each pair and axis.
-  for (Opening& o : openings_)
-    if (o.b < o.a) std::swap(o.a, o.b);
   std::sort(openings_.begin(), openings_.end(), [](const Opening& l, const Opening& r) {
     return l.a != r.a ? l.a < r.a : l.b != r.b ? l.b < r.b : l.axis < r.axis;
   });
   size_t kept = 0;
-  for (size_t i = 0; i < openings_.size(); ++i) {
-    Opening& last = openings_[kept > 0 ? kept - 1 : 0];
-    if (kept > 0 && last.a == openings_[i].a && last.b == openings_[i].b && last.axis == openings_[i].axis)
-      last.area += openings_[i].area;
+  for (const Opening& o : openings_) {
+    if (kept > 0 && openings_[kept - 1].a == o.a && openings_[kept - 1].b == o.b &&
+        openings_[kept - 1].axis == o.axis)
+      openings_[kept - 1].area += o.area;
     else
-      openings_[kept++] = openings_[i];
+      openings_[kept++] = o;
   }
   openings_.resize(kept);
+  for (uint32_t i = 0; i < slots.size(); ++i)
+    if (slots[i].to != kNone) openings_.push_back({i / 3, slots[i].to, uint8_t(i % 3), slots[i].area});
 }
 
 /// Smallest first, each small part joins the neighbour with the widest opening; what grows past the limit
