@@ -11,7 +11,7 @@ layout(location = 0) out vec4 radiance;
 
 void main() {
   Receiver receivers[4];
-  int count = loadReceivers(receivers);
+  int count = loadReceivers(ivec2(gl_FragCoord.xy) * 2, receivers);
   if (count == 0) discard;
   vec3 sum = vec3(0.0);
   for (int i = 0; i < count; ++i) {

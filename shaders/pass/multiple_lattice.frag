@@ -48,7 +48,7 @@ vec3 radiosity(LightView view, vec3 receiver) {
 
 void main() {
   Receiver receivers[4];
-  int count = loadReceivers(receivers);
+  int count = loadReceivers(ivec2(gl_FragCoord.xy) * 2, receivers);
   if (count == 0) discard;
   LightView view = lightView();
   vec3 sum = vec3(0.0);

@@ -1,210 +1,58 @@
-// Multiple scattering by the matched sampler: a golden-angle spiral in the light's plane whose radii follow the profile at
-// the object's true size; every sample carries exactly the flux of its cell. docs/physics.md, "The matched sampler".
-#include "lib/fresnel.glsl"
-#include "lib/profile.glsl"
-#include "lib/spiral.glsl"
-#include "pass/light_view.glsl"
-#include "pass/receiver.glsl"
+// Multiple scattering by the matched sampler. It varies slowly over a smooth surface: there it is interpolated between
+// the coarse evaluations of multiple_matched_coarse.frag, elsewhere evaluated for the pixel itself.
+#include "pass/matched_sampler.glsl"
 
-uniform sampler2D moments;    // flux, flux z, flux z^2, flux z^3; z towards the light from centreDepth
-uniform sampler2D profile;    // rows from below: Rd, P, light sent no farther than r
-uniform float profileScale;
-uniform float centreDepth;
-uniform float boundRadius;    // of the object's bounding sphere, whose centre the axis passes
-uniform float spiralScale;    // half of the samples lie within this distance
-uniform float reach;          // beyond it the profile is dark in every channel
-uniform sampler2D azimuths;   // cosine and sine for sample (u) and eccentricity (v), see technique/multiple/spiral.h
-uniform int sampleCount;
+uniform sampler2D coarseRadiosity;
+uniform sampler2D coarseSurface;
+uniform float interpolation;  // largest relative difference between neighbours that is interpolated across; 0 never
 uniform float eta;
 uniform float piC;
 
 layout(location = 0) out vec4 radiance;
 
-const float kDark = 1e-7;  // a texel with less flux is empty
-const int kExactCells = 16;
-
-vec3 profileRd(float r) {
-  return textureLod(profile, vec2(profileCoordinate(r, profileScale), 0.5 / 3.0), 0.0).xyz;
-}
-vec3 profileP(float r) {
-  return textureLod(profile, vec2(profileCoordinate(r, profileScale), 1.5 / 3.0), 0.0).xyz;
-}
-vec3 profileNear(float r) {
-  return textureLod(profile, vec2(profileCoordinate(r, profileScale), 2.5 / 3.0), 0.0).xyz;
+// Neighbours on the receiver's own piece of surface: normals within about 18 degrees, points near its tangent plane.
+bool sameSurface(Receiver r, ivec2 at) {
+  vec3 s = texelFetch(coarseSurface, at, 0).xyz;
+  vec3 offset = cameraPosition + rayThrough(vec2(at) * 4.0 + 2.0) * s.x - r.position;
+  return dot(octDecode(s.yz), r.normal) > 0.95 && abs(dot(offset, r.normal)) <= 0.25 * length(offset);
 }
 
-// The receiver in the light's plane, scaled to its own depth.
-struct Ground {
-  vec2 p;          // scene units from the axis
-  vec2 uv;
-  float width;     // of the window, scene units
-  float texel;
-  float z;         // towards the light, of the receiver as the map sees it
-  float depth;     // how far the lit surface lies above the receiver; 0 when the receiver is lit
-  float window;    // of what the map cannot resolve around the receiver: a texel on the slanted surface
-  float local;     // flux that enters at the receiver itself, per area of its surface
-  float slope2;    // squared slope of the receiver's own surface where it is lit, else 0
-};
-
-// Height of the lit surface above z near uv: the candidate nearest to it among the four texels and their mean.
-float surfaceAbove(vec2 uv, float z, float fallbackLevels) {
-  vec2 size = vec2(textureSize(moments, 0));
-  vec2 t = uv * size - 0.5;
+// Across neighbours that differ little, or by nothing that shows beside what a lit surface gives.
+bool interpolated(Receiver r, vec3 faint, out vec3 value) {
+  vec2 t = gl_FragCoord.xy * 0.5 - 0.5;
   ivec2 base = ivec2(floor(t));
-  float best = 1e30;
+  ivec2 last = textureSize(coarseRadiosity, 0) - 1;
+  vec2 f = t - vec2(base);
+  value = vec3(0.0);
+  vec3 least = vec3(1e30);
+  vec3 most = vec3(0.0);
   for (int i = 0; i < 4; ++i) {
-    ivec2 at = clamp(base + ivec2(i & 1, i >> 1), ivec2(0), ivec2(size) - 1);
-    vec2 m = texelFetch(moments, at, 0).xy;
-    if (m.x < kDark) continue;
-    float above = m.y / m.x - z;
-    if (abs(above) < abs(best)) best = above;
+    ivec2 corner = ivec2(i & 1, i >> 1);
+    ivec2 at = base + corner;
+    if (at.x < 0 || at.y < 0 || at.x > last.x || at.y > last.y) return false;
+    vec4 c = texelFetch(coarseRadiosity, at, 0);
+    if (c.w == 0.0 || !sameSurface(r, at)) return false;
+    vec2 w = mix(1.0 - f, f, vec2(corner));
+    value += w.x * w.y * c.xyz;
+    least = min(least, c.xyz);
+    most = max(most, c.xyz);
   }
-  vec2 mean = textureLod(moments, uv, 0.0).xy;
-  if (mean.x > kDark && abs(mean.y / mean.x - z) < abs(best)) best = mean.y / mean.x - z;
-  for (float level = 1.0; best > 1e29 && level <= fallbackLevels; level += 1.0) {
-    vec2 m = textureLod(moments, uv, level).xy;
-    if (m.x > kDark) best = m.y / m.x - z;
-  }
-  return best > 1e29 ? 0.0 : best;
-}
-
-Ground groundOf(LightView view, Receiver r) {
-  vec3 m = projectToMap(view, r.position);
-  Ground g;
-  g.uv = m.xy;
-  g.width = 2.0 * view.halfWidth * mix(1.0, m.z, view.perspective);
-  g.p = (m.xy - 0.5) * g.width;
-  g.texel = g.width / float(textureSize(moments, 0).x);
-  g.z = centreDepth - m.z;
-  g.slope2 = 0.0;
-  float above = surfaceAbove(m.xy, g.z, log2(float(textureSize(moments, 0).x)));
-  float cosI = -dot(r.normal, lightTravel(view, r.position));
-  float tan2 = (1.0 - cosI * cosI) / max(0.02, cosI * cosI);
-  // Lit: put the receiver onto the surface that the map holds, whose texels know it only to within their slope. Faded,
-  // so that the edge of a shadow does not follow the texels.
-  float slack = g.texel * (1.5 * sqrt(tan2) + 0.25);
-  float lit = cosI > 0.0 ? 1.0 - smoothstep(0.5 * slack, 2.0 * slack, abs(above)) : 0.0;
-  g.z += lit * above;
-  g.slope2 = lit * tan2;
-  g.depth = (1.0 - lit) * above;
-  g.window = g.texel * mix(1.0, sqrt(1.0 + tan2), lit);
-  g.local = lit * max(cosI, 0.0) * textureLod(moments, m.xy, 0.0).x;
-  return g;
-}
-
-struct Sum {
-  vec3 radiosity;
-  vec3 weighted;      // sum of A^2 F f, for the control variate
-  float weight;       // sum of A^2 F
-  float flux;         // sum of A F
-  vec3 faintest;      // smallest kernel among the outermost quarter
-};
-
-// Mean of the kernel over the ring of squared distances a2 to b2, less what is nearer than the window: that part the
-// receiver answers for itself.
-vec3 kernelMean(float a2, float b2, float window, bool exact) {
-  float middle = 0.5 * (a2 + b2);
-  float share = 1.0 - exp(-middle / (window * window));
-  if (exact && b2 - a2 > 0.02 * b2)
-    return (profileP(sqrt(a2)) - profileP(sqrt(b2))) * (share / (3.141592653589793 * (b2 - a2)));
-  return profileRd(sqrt(middle)) * share;
-}
-
-// Kernel of one cell whose flux sits at height `height` above the receiver at the cell's middle radius q.
-vec3 cellKernel(float a, float b, float q, float start, float height, float window, bool exact) {
-  float ha = start + (height - start) * a / q;
-  float hb = start + (height - start) * b / q;
-  float a2 = a * a + ha * ha;
-  float b2 = b * b + hb * hb;
-  return kernelMean(min(a2, b2), max(a2, b2), window, exact);
-}
-
-void addCell(inout Sum sum, Ground g, vec2 uv, float area, float a, float b, float q, int index) {
-  float level = max(0.0, 0.5 * log2(area) - log2(g.texel) - 1.0);
-  vec4 t = textureLod(moments, uv, level);
-  if (t.x < kDark) return;
-  vec3 m = t.yzw / t.x;
-  float variance = m.y - m.x * m.x;
-  float height = m.x - g.z;
-  // The surface's slope inside the footprint is not a spread of depths.
-  float footprint = exp2(level) * g.texel;
-  float slope2 = max((height - g.depth) * (height - g.depth) / (q * q), g.slope2);
-  variance -= 0.25 * slope2 * footprint * footprint;
-  bool exact = index < kExactCells;
-  vec3 f;
-  if (variance <= 1e-9) {
-    f = cellKernel(a, b, q, g.depth, height, g.window, exact);
-  } else {
-    // Two nodes with the flux's mean, variance and skewness.
-    float third = m.z - 3.0 * m.x * m.y + 2.0 * m.x * m.x * m.x;
-    float deviation = sqrt(variance);
-    float skew = clamp(third / (variance * deviation), -20.0, 20.0);
-    float root = sqrt(skew * skew + 4.0);
-    float w = 0.5 * (skew + root) / root;
-    f = w * cellKernel(a, b, q, g.depth, height + 0.5 * deviation * (skew - root), g.window, exact) +
-        (1.0 - w) * cellKernel(a, b, q, g.depth, height + 0.5 * deviation * (skew + root), g.window, exact);
-  }
-  sum.radiosity += area * t.x * f;
-  sum.weighted += area * area * t.x * f;
-  sum.weight += area * area * t.x;
-  sum.flux += area * t.x;
-  if (4 * index >= 3 * sampleCount) sum.faintest = min(sum.faintest, f);
-}
-
-vec3 radiosity(LightView view, Receiver r) {
-  Ground g = groundOf(view, r);
-  float d = min(0.2 * max(g.depth, 0.0), 0.5 * spiralScale);  // lit surface may be nearer than straight above
-  float g0 = radialShare(d, spiralScale);
-  // The spiral fills the object's circle, which lies off the receiver by e0.
-  float rc = 1.05 * boundRadius + g.texel;
-  float e0 = min(length(g.p), 0.999 * rc);
-  vec2 inwards = e0 > 1e-6 ? -g.p / length(g.p) : vec2(1.0, 0.0);
-  float farthest = length(vec2(reach, d));
-  float farShare = radialShare(min(length(vec2(rc + e0, d)), farthest), spiralScale) - g0;
-  float nearShare = radialShare(min(length(vec2(rc - e0, d)), farthest), spiralScale) - g0;
-  float e = 0.9 * (farShare - nearShare) / max(1e-9, farShare + nearShare);
-  Sum sum = Sum(vec3(0.0), vec3(0.0), 0.0, 0.0, vec3(1e30));
-  float inverse = 1.0 / float(sampleCount);
-  float rows = float(textureSize(azimuths, 0).y);
-  float row = (e / 0.9 * (rows - 1.0) + 0.5) / rows;
-  for (int i = 0; i < sampleCount; ++i) {
-    vec2 phi = textureLod(azimuths, vec2((float(i) + 0.5) * inverse, row), 0.0).xy;
-    float edge = min(length(vec2(distanceToCircle(e0, rc, phi.x, phi.y), d)), farthest);
-    float share = radialShare(edge, spiralScale) - g0;
-    vec3 at = vec3(float(i), float(i) + 0.5, float(i) + 1.0) * (inverse * share) + g0;
-    float ra = radiusOfShare(at.x, spiralScale);
-    float rq = radiusOfShare(at.y, spiralScale);
-    float rb = radiusOfShare(at.z, spiralScale);
-    float a = i == 0 ? 0.0 : sqrt(max(0.0, ra * ra - d * d));
-    float q = sqrt(max(1e-16, rq * rq - d * d));
-    float b = sqrt(max(1e-16, rb * rb - d * d));
-    float area = 3.141592653589793 * (b * b - a * a) / (1.0 + e * phi.x);
-    vec2 o = q * (phi.x * inwards + phi.y * vec2(-inwards.y, inwards.x));
-    vec2 uv = g.uv + o / g.width;
-    if (uv.x < 0.0 || uv.y < 0.0 || uv.x > 1.0 || uv.y > 1.0) continue;
-    addCell(sum, g, uv, area, a, b, q, i);
-  }
-  // What the samples missed of the known total flux, spread like the samples (a control variate), tapered where they
-  // missed so much that the estimate means nothing.
-  float total = textureLod(moments, vec2(0.5), 30.0).x * g.width * g.width;
-  float missed = total - sum.flux;
-  float taper = max(0.0, 1.0 - pow(missed / max(1e-9, 0.4 * total), 2.0));
-  vec3 beta = min(sum.weighted / max(1e-20, sum.weight), 1.5 * sum.faintest);
-  return max(vec3(0.0), sum.radiosity + beta * (taper * missed)) + profileNear(g.window) * g.local;
+  return all(lessThanEqual(most - least, interpolation * max(most, faint)));
 }
 
 void main() {
   Receiver receivers[4];
-  int count = loadReceivers(receivers);
+  int count = loadReceivers(ivec2(gl_FragCoord.xy) * 2, receivers);
   if (count == 0) discard;
   LightView view = lightView();
+  vec3 faint = 0.01 * profileP(0.0) * lightPower;
   vec3 sum = vec3(0.0);
   for (int i = 0; i < count; ++i) {
     Receiver r = receivers[i];
     float cosO = clamp(dot(r.normal, r.view), 0.0, 1.0);
-    float depth = dot(r.position - view.origin, view.forward);
-    vec3 power = lightPower / mix(1.0, depth * depth, view.perspective);
-    sum += r.weight * exitLobe(cosO, eta, piC) * power * radiosity(view, r);
+    vec3 value;
+    if (interpolation == 0.0 || !interpolated(r, faint, value)) value = litRadiosity(view, r);
+    sum += r.weight * exitLobe(cosO, eta, piC) * value;
   }
   radiance = vec4(sum, 0.0);
 }

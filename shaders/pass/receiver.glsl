@@ -29,9 +29,8 @@ Receiver receiverAt(vec3 position, vec3 normal, float weight) {
   return Receiver(position, normal, normalize(cameraPosition - position), weight);
 }
 
-// Receivers of this object in this pixel, 0 to 4.
-int loadReceivers(out Receiver receivers[4]) {
-  ivec2 first = ivec2(gl_FragCoord.xy) * 2;
+// Receivers of this object among the 2 x 2 samples from `first` on, 0 to 4.
+int loadReceivers(ivec2 first, out Receiver receivers[4]) {
   vec3 positions[4];
   vec3 normals[4];
   int count = 0;

@@ -122,7 +122,7 @@ vec3 singleScattering(LightView view, Receiver r) {
 
 void main() {
   Receiver receivers[4];
-  int count = loadReceivers(receivers);
+  int count = loadReceivers(ivec2(gl_FragCoord.xy) * 2, receivers);
   if (count == 0) discard;
   LightView view = lightView();
   vec3 sum = vec3(0.0);

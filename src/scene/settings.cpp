@@ -94,6 +94,7 @@ void validate(const RenderSettings& settings) {
   if (settings.mapSize < 128 || settings.mapSize > 4096)
     refuse("map", "a size from 128 to 4096 texels", fmt::format("{}", settings.mapSize));
   requireRange(settings.multipleSamples, 8, 128, "multiple samples");
+  requireRange(settings.interpolation, 0, 1, "interpolation");
   requireRange(settings.singleSamples, 1, 256, "single samples");
   requireRange(settings.samples, 1e-3, 1e9, "samples");
   requireRange(settings.tolerance, 1e-5, 1, "tolerance");

@@ -1,5 +1,8 @@
 #include "technique/shading.h"
 
+#include <algorithm>
+
+#include "gpu/pass.h"
 #include "technique/multiple/lattice.h"
 #include "technique/multiple/spiral.h"
 
@@ -64,7 +67,8 @@ bool MultipleLatticeShading::update(Layer& layer, const ShadingInputs& in, size_
 }
 
 MultipleMatchedShading::MultipleMatchedShading()
-    : program_(shadingProgram("matched", "pass/multiple_matched.frag")) {}
+    : coarseProgram_(shadingProgram("matched, coarse", "pass/multiple_matched_coarse.frag")),
+      program_(shadingProgram("matched", "pass/multiple_matched.frag")) {}
 
 const gpu::Texture& MultipleMatchedShading::azimuths(int samples) {
   if (azimuths_ && azimuths_->width() == samples) return *azimuths_;
@@ -78,26 +82,65 @@ const gpu::Texture& MultipleMatchedShading::azimuths(int samples) {
   return *azimuths_;
 }
 
+MultipleMatchedShading::Coarse& MultipleMatchedShading::coarse(const CameraFrame& camera) {
+  // A last odd row or column has no whole block; its pixels are evaluated for themselves.
+  const int width = std::max(1, camera.width / 2), height = std::max(1, camera.height / 2);
+  if (coarse_ && coarse_->radiosity.width() == width && coarse_->radiosity.height() == height)
+    return *coarse_;
+  coarse_.reset();
+  const auto texture = [&](const char* label) {
+    return gpu::Texture({.label = label, .format = gpu::Format::kRgba32f, .width = width, .height = height});
+  };
+  gpu::Texture radiosity = texture("coarse radiosity"), surface = texture("coarse surface");
+  gpu::Framebuffer framebuffer({.label = "coarse", .colours = {radiosity, surface}, .depth = {}});
+  coarse_.emplace(Coarse{std::move(radiosity), std::move(surface), std::move(framebuffer)});
+  return *coarse_;
+}
+
+void MultipleMatchedShading::setUniforms(gpu::Program& program, const ShadingInputs& in, size_t object,
+                                         size_t light) {
+  const FrameObject& target = in.frame.objects[object];
+  const LightMapPass::Map& map = in.maps.get(object, light);
+  const ProfileCache::Entry& profile = in.profiles.get(object);
+  map.view.setUniforms(program);
+  program.setTexture("moments", *map.moments);
+  program.setTexture("profile", *profile.table);
+  program.setTexture("azimuths", azimuths(in.settings.multipleSamples));
+  program.set("profileScale", profile.scale);
+  program.set("centreDepth", map.view.centreDepth);
+  program.set("boundRadius", target.bounds.radius);
+  program.set("spiralScale", profile.spiralScale);
+  program.set("reach", profile.reach);
+  program.set("sampleCount", in.settings.multipleSamples);
+}
+
+void MultipleMatchedShading::drawCoarse(const ShadingInputs& in, size_t object, size_t light) {
+  Coarse& target = coarse(in.frame.camera);
+  target.framebuffer.clearColour(0, {0, 0, 0, 0});
+  setUniforms(coarseProgram_, in, object, light);
+  setReceiverUniforms(coarseProgram_, in.frame, in.geometry.samples(), object);
+  const gpu::Rect fine = screenBounds(in.frame, in.frame.objects[object]);
+  const gpu::Rect bounds{fine.x / 2, fine.y / 2, fine.width / 2 + 2, fine.height / 2 + 2};
+  gpu::Pass pass("matched, coarse", target.framebuffer, {.scissor = bounds});
+  pass.drawFullScreen(coarseProgram_);
+}
+
 bool MultipleMatchedShading::update(Layer& layer, const ShadingInputs& in, size_t light) {
   constexpr double kMatched = 2;  // tells its key from the lattice's, whose first own number is 0 or 1
-  const Key key = Key().add(commonKey(in, light)).add(kMatched).add(in.settings.multipleSamples);
+  const double interpolation =
+      std::min(in.frame.camera.width, in.frame.camera.height) < 2 ? 0 : in.settings.interpolation;
+  const Key key =
+      Key().add(commonKey(in, light)).add(kMatched).add(in.settings.multipleSamples).add(interpolation);
   return layer.update("multiple", key, in.frame, in.geometry, [&](size_t i) -> gpu::Program* {
-    const FrameObject& object = in.frame.objects[i];
-    if (!object.translucent) return nullptr;
-    const LightMapPass::Map& map = in.maps.get(i, light);
-    const ProfileCache::Entry& profile = in.profiles.get(i);
-    map.view.setUniforms(program_);
-    program_.setTexture("moments", *map.moments);
-    program_.setTexture("profile", *profile.table);
-    program_.setTexture("azimuths", azimuths(in.settings.multipleSamples));
-    program_.set("profileScale", profile.scale);
-    program_.set("centreDepth", map.view.centreDepth);
-    program_.set("boundRadius", object.bounds.radius);
-    program_.set("spiralScale", profile.spiralScale);
-    program_.set("reach", profile.reach);
-    program_.set("sampleCount", in.settings.multipleSamples);
-    program_.set("eta", object.medium.eta);
-    program_.set("piC", profile.piC);
+    if (!in.frame.objects[i].translucent) return nullptr;
+    if (interpolation > 0) drawCoarse(in, i, light);
+    const Coarse& neighbours = coarse(in.frame.camera);
+    setUniforms(program_, in, i, light);
+    program_.setTexture("coarseRadiosity", neighbours.radiosity);
+    program_.setTexture("coarseSurface", neighbours.surface);
+    program_.set("interpolation", interpolation);
+    program_.set("eta", in.frame.objects[i].medium.eta);
+    program_.set("piC", in.profiles.get(i).piC);
     return &program_;
   });
 }

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "gpu/framebuffer.h"
 #include "gpu/program.h"
 #include "lychnite/scene/settings.h"
 #include "technique/layer.h"
@@ -29,17 +30,26 @@ class MultipleLatticeShading {
   gpu::Program adaptive_, fixed_;
 };
 
-/// Multiple scattering by the matched sampler.
+/// Multiple scattering by the matched sampler: evaluated for every second pixel and row and interpolated
+/// where the surface and its light are smooth, evaluated for each pixel elsewhere.
 class MultipleMatchedShading {
  public:
   MultipleMatchedShading();
   bool update(Layer& layer, const ShadingInputs& in, size_t light);
 
  private:
+  struct Coarse {
+    gpu::Texture radiosity, surface;
+    gpu::Framebuffer framebuffer;
+  };
   const gpu::Texture& azimuths(int samples);
+  Coarse& coarse(const CameraFrame& camera);
+  void setUniforms(gpu::Program& program, const ShadingInputs& in, size_t object, size_t light);
+  void drawCoarse(const ShadingInputs& in, size_t object, size_t light);
 
-  gpu::Program program_;
+  gpu::Program coarseProgram_, program_;
   std::optional<gpu::Texture> azimuths_;
+  std::optional<Coarse> coarse_;  ///< shared by all objects and lights
 };
 
 /// Single scattering along the refracted ray.
