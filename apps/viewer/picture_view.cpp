@@ -95,11 +95,11 @@ void Pace::measured(double ms, double idleMs) {
   }
 }
 
-PictureView::PictureView(const RendererOptions& options, int walkThreads)
+PictureView::PictureView(const RendererOptions& options, const BackgroundWalk::Options& walk)
     : live_(options),
       variant_(options),
       pace_(gpu::Context({.current = true}).device().software),
-      walk_(walkThreads),
+      walk_(walk),
       idleMs_(kMillisecondsIdle) {
   live_.prepare();
 }

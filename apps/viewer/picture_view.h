@@ -61,7 +61,7 @@ class Pace {
 /// Everything in the picture's area of the window: the scene, its variant, the walk, an opened picture.
 class PictureView {
  public:
-  PictureView(const RendererOptions& options, int walkThreads);
+  PictureView(const RendererOptions& options, const BackgroundWalk::Options& walk);
 
   struct Request {
     const ViewState* state = nullptr;

@@ -135,7 +135,9 @@ Viewer::Viewer(const ViewOptions& options)
       context_({.debug = options.debug, .current = true}, options.log),
       ui_(window_),
       view_({.useCurrentContext = true, .profiles = profiles_.maker()},
-            options.threads > 0 ? options.threads : preferences_.walkThreads),
+            // A script has no hands that the walk could disturb.
+            {.threads = options.threads > 0 ? options.threads : preferences_.walkThreads,
+             .yields = options.play.empty()}),
       swatches_({.useCurrentContext = true}) {
   makePlayer();
   start();

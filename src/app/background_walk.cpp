@@ -63,6 +63,7 @@ struct BackgroundWalk::Impl {
 
   int threads = 1;
   double enough = 0;
+  bool yields = true;
   mutable std::mutex mutex;
   std::condition_variable_any wake;
   std::optional<Job> wanted;
@@ -73,7 +74,7 @@ struct BackgroundWalk::Impl {
 };
 
 void BackgroundWalk::Impl::work(const std::stop_token& stop) {
-  lowerThreadPriority();
+  if (yields) lowerThreadPriority();
   uint64_t done = 0;
   while (true) {
     Job job;
@@ -120,9 +121,10 @@ void BackgroundWalk::Impl::refine(const Job& job, uint64_t mine) {
   }
 }
 
-BackgroundWalk::BackgroundWalk(int threads, double enough) : impl_(std::make_unique<Impl>()) {
-  impl_->threads = threads > 0 ? threads : defaultThreads();
-  impl_->enough = enough;
+BackgroundWalk::BackgroundWalk(const Options& options) : impl_(std::make_unique<Impl>()) {
+  impl_->threads = options.threads > 0 ? options.threads : defaultThreads();
+  impl_->enough = options.enough;
+  impl_->yields = options.yields;
   impl_->thread = std::jthread([impl = impl_.get()](const std::stop_token& token) { impl->work(token); });
 }
 

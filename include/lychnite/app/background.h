@@ -27,8 +27,12 @@ class BackgroundWalk {
     double photonsPerPixel = 0;
   };
 
-  /// `threads` 0: one for up to two cores, half of them for more. Stops at a noise of `enough`.
-  explicit BackgroundWalk(int threads = 0, double enough = 0.005);
+  struct Options {
+    int threads = 0;        ///< 0: one for up to two cores, half of them for more
+    double enough = 0.005;  ///< the noise to stop at
+    bool yields = true;     ///< to everything else that wants the processor
+  };
+  explicit BackgroundWalk(const Options& options);
   ~BackgroundWalk();
   BackgroundWalk(const BackgroundWalk&) = delete;
   BackgroundWalk& operator=(const BackgroundWalk&) = delete;

@@ -26,7 +26,7 @@ BackgroundWalk::Result firstOf(BackgroundWalk& walk) {
 }
 
 TEST(BackgroundWalk, RefinesWhatIsWanted) {
-  BackgroundWalk walk(1, 0.9);
+  BackgroundWalk walk({.threads = 1, .enough = 0.9, .yields = false});
   EXPECT_FALSE(walk.newest());
   walk.want(glowing(3), small());
   const auto result = firstOf(walk);
@@ -37,7 +37,7 @@ TEST(BackgroundWalk, RefinesWhatIsWanted) {
 }
 
 TEST(BackgroundWalk, WantingTheSameGoesOn) {
-  BackgroundWalk walk(1, 0.9);
+  BackgroundWalk walk({.threads = 1, .enough = 0.9, .yields = false});
   walk.want(glowing(3), small());
   const auto first = firstOf(walk);
   walk.want(glowing(3), small());
@@ -48,14 +48,14 @@ TEST(BackgroundWalk, WantingTheSameGoesOn) {
 }
 
 TEST(BackgroundWalk, StopsAtOnce) {
-  BackgroundWalk walk(1, 0);
+  BackgroundWalk walk({.threads = 1, .enough = 0});
   walk.want(glowing(3), {.width = 400, .height = 400});
   walk.stop();
   EXPECT_FALSE(walk.newest());
 }
 
 TEST(BackgroundWalk, SaysWhatIsWrong) {
-  BackgroundWalk walk(1);
+  BackgroundWalk walk({.threads = 1, .yields = false});
   Scene bad = glowing(3);
   bad.objects[0].material.roughness = 7;
   walk.want(bad, small());
