@@ -16,7 +16,6 @@ Coefficients reducedOf(const Coefficients& medium) {
 Shape::Shape(std::shared_ptr<const Mesh> source, int cells)
     : mesh(std::move(source)),
       local(*mesh),
-      undefined(undefinedInside(local)),
       grid(local, cells),
       surface(local, grid),
       smoother(grid, surface) {}

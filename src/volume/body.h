@@ -15,7 +15,6 @@ struct Shape {
   Shape(std::shared_ptr<const Mesh> source, int cells);
   std::shared_ptr<const Mesh> mesh;
   LocalMesh local;
-  double undefined;  ///< see undefinedInside()
   Grid grid;
   Surface surface;
   Smoother smoother;

@@ -36,43 +36,66 @@ Emission::Emission(const Surface& surface, int points) : areaEach_(surface.area(
   }
 }
 
+namespace {
+
+/// One pass of photons of one light onto one body.
+struct Pass {
+  const World& world;
+  const Emission& emission;
+  RayLight light;
+  size_t object;
+  int collisions;
+  uint64_t seed;
+  int number;
+  float shift[5];
+
+  void follow(Tracer& tracer, size_t i) const {
+    const Body& body = *world.bodies[object];
+    const auto& point = emission.points()[i];
+    const Surface& surface = body.shape->surface;
+    const glm::vec2 at =
+        surface.pointOf(point.sample, turn(double(point.x + shift[0])), turn(double(point.y + shift[1])));
+    const RayHit hit =
+        world.rays->hitOf(int(object), surface.samples()[point.sample].triangle, at.x, at.y, 0);
+    const RayLight::Seen seen = light.seenFrom(hit.position);
+    const glm::vec3 towards(seen.direction);
+    const float cosine = glm::dot(towards, hit.normal);
+    if (cosine <= 0) return;
+    if (world.rays->occluded(offPoint(hit, towards), towards, float(seen.distance))) return;
+    const float area = float(emission.areaEach()) * body.size * body.size;
+    const double n = double(i);
+    const glm::vec3 u(turn(n * kStep[2] + double(shift[2])), turn(n * kStep[3] + double(shift[3])),
+                      turn(n * kStep[4] + double(shift[4])));
+    const uint64_t stream = (uint64_t(number) << 32) + object * emission.points().size() + i;
+    tracer.arrive(hit, -towards, glm::vec3(seen.irradiance) * (cosine * area), int((i + size_t(number)) % 3),
+                  u, Rng(seed, stream), 0, collisions);
+  }
+};
+
+RayLight unitPower(const RayLight& light) {
+  RayLight unit = light;
+  unit.power = Rgb(1);
+  return unit;
+}
+
+}  // namespace
+
 Traced traceLight(const World& world, const std::vector<Emission>& emission, const RayLight& light,
                   int collisions, uint64_t seed, int pass) {
   Traced result;
-  RayLight unit = light;
-  unit.power = Rgb(1);
-  // Later passes shift all points and numbers (Cranley & Patterson 1976).
-  Rng shifts(seed, uint64_t(pass));
-  float shift[5];
-  for (float& s : shift) s = pass == 0 ? 0 : shifts.uniform();
   for (const auto& body : world.bodies) result.deposits.push_back(body ? Deposits(*body) : Deposits());
   for (size_t object = 0; object < world.bodies.size(); ++object) {
     if (!world.bodies[object]) continue;
-    const Body& body = *world.bodies[object];
-    const auto& points = emission[object].points();
-    const float area = float(emission[object].areaEach()) * body.size * body.size;
-    const size_t blocks = (points.size() + kBlock - 1) / kBlock;
+    Pass one{world, emission[object], unitPower(light), object, collisions, seed, pass, {}};
+    // Later passes shift all points and numbers (Cranley & Patterson 1976).
+    Rng shifts(seed, uint64_t(pass));
+    for (float& s : one.shift) s = pass == 0 ? 0 : shifts.uniform();
+    const size_t count = emission[object].points().size(), blocks = (count + kBlock - 1) / kBlock;
     std::vector<std::vector<Tracer::Record>> records(blocks);
     std::vector<Tally> tallies(blocks);
     tbb::parallel_for(size_t(0), blocks, [&](size_t b) {
       Tracer tracer(world, records[b]);
-      for (size_t i = b * kBlock; i < std::min(points.size(), (b + 1) * kBlock); ++i) {
-        const auto& sample = body.shape->surface.samples()[points[i].sample];
-        const glm::vec2 at = body.shape->surface.pointOf(
-            points[i].sample, turn(double(points[i].x + shift[0])), turn(double(points[i].y + shift[1])));
-        const RayHit hit = world.rays->hitOf(int(object), sample.triangle, at.x, at.y, 0);
-        const RayLight::Seen seen = unit.seenFrom(hit.position);
-        const glm::vec3 towards(seen.direction);
-        const float cosine = glm::dot(towards, hit.normal);
-        if (cosine <= 0) continue;
-        if (world.rays->occluded(offPoint(hit, towards), towards, float(seen.distance))) continue;
-        const glm::vec3 flux = glm::vec3(seen.irradiance) * (cosine * area);
-        const double n = double(i);
-        const glm::vec3 u(turn(n * kStep[2] + double(shift[2])), turn(n * kStep[3] + double(shift[3])),
-                          turn(n * kStep[4] + double(shift[4])));
-        tracer.arrive(hit, -towards, flux, int((i + size_t(pass)) % 3), u,
-                      Rng(seed, (uint64_t(pass) << 32) + object * points.size() + i), 0, collisions);
-      }
+      for (size_t i = b * kBlock; i < std::min(count, (b + 1) * kBlock); ++i) one.follow(tracer, i);
       tallies[b] = tracer.tally();
     });
     for (size_t b = 0; b < blocks; ++b) {
@@ -83,46 +106,61 @@ Traced traceLight(const World& world, const std::vector<Emission>& emission, con
   return result;
 }
 
+namespace {
+
+/// Flux that enters each sample if nothing shades it, and each node's sample that gets most.
+struct Unshaded {
+  std::vector<float> samples;
+  std::vector<uint32_t> brightest;
+};
+
+RayHit middleOf(const World& world, size_t object, uint32_t sample) {
+  const Surface& surface = world.bodies[object]->shape->surface;
+  const glm::vec2 at = surface.pointOf(sample, 1.0f / 3, 1.0f / 3);
+  return world.rays->hitOf(int(object), surface.samples()[sample].triangle, at.x, at.y, 0);
+}
+
+Unshaded unshadedFlux(const World& world, size_t object, const RayLight& light) {
+  const Body& body = *world.bodies[object];
+  const auto& samples = body.shape->surface.samples();
+  Unshaded result{std::vector<float>(samples.size(), 0),
+                  std::vector<uint32_t>(body.shape->surface.nodes().size(), Grid::kNone)};
+  tbb::parallel_for(size_t(0), samples.size(), [&](size_t s) {
+    const RayHit hit = middleOf(world, object, uint32_t(s));
+    const RayLight::Seen seen = light.seenFrom(hit.position);
+    const float cosine = std::fmin(1.0f, glm::dot(glm::vec3(seen.direction), hit.normal));
+    if (cosine <= 0) return;
+    const float T = 1 - transport::fresnel(cosine, body.medium.eta).reflectance;
+    result.samples[s] = float(seen.irradiance.x) * cosine * T * samples[s].area * body.size * body.size;
+  });
+  for (uint32_t s = 0; s < samples.size(); ++s) {
+    uint32_t& best = result.brightest[samples[s].node];
+    if (result.samples[s] > 0 && (best == Grid::kNone || result.samples[s] > result.samples[best])) best = s;
+  }
+  return result;
+}
+
+}  // namespace
+
 std::vector<std::vector<float>> enteringFlux(const World& world, const RayLight& light) {
-  RayLight unit = light;
-  unit.power = Rgb(1);
+  const RayLight unit = unitPower(light);
   std::vector<std::vector<float>> result(world.bodies.size());
   for (size_t object = 0; object < world.bodies.size(); ++object) {
     if (!world.bodies[object]) continue;
-    const Body& body = *world.bodies[object];
-    const Surface& surface = body.shape->surface;
-    const auto& samples = surface.samples();
-    std::vector<float> each(samples.size(), 0), best(surface.nodes().size(), 0);
-    std::vector<uint32_t> brightest(best.size(), 0);
-    const auto hitOf = [&](size_t s) {
-      const glm::vec2 at = surface.pointOf(uint32_t(s), 1.0f / 3, 1.0f / 3);
-      return world.rays->hitOf(int(object), samples[s].triangle, at.x, at.y, 0);
-    };
-    tbb::parallel_for(size_t(0), (samples.size() + kBlock - 1) / kBlock, [&](size_t b) {
-      for (size_t s = b * kBlock; s < std::min(samples.size(), (b + 1) * kBlock); ++s) {
-        const RayHit hit = hitOf(s);
-        const RayLight::Seen seen = unit.seenFrom(hit.position);
-        const float cosine = std::fmin(1.0f, glm::dot(glm::vec3(seen.direction), hit.normal));
-        if (cosine <= 0) continue;
-        const float T = 1 - transport::fresnel(cosine, body.medium.eta).reflectance;
-        each[s] = float(seen.irradiance.x) * cosine * T * samples[s].area * body.size * body.size;
-      }
+    const auto& samples = world.bodies[object]->shape->surface.samples();
+    const Unshaded unshaded = unshadedFlux(world, object, unit);
+    const size_t nodes = unshaded.brightest.size();
+    std::vector<char> lit(nodes, 0);
+    tbb::parallel_for(size_t(0), nodes, [&](size_t n) {
+      if (unshaded.brightest[n] == Grid::kNone) return;
+      const RayHit hit = middleOf(world, object, unshaded.brightest[n]);
+      const RayLight::Seen seen = unit.seenFrom(hit.position);
+      const glm::vec3 towards(seen.direction);
+      lit[n] = !world.rays->occluded(offPoint(hit, towards), towards, float(seen.distance));
     });
+    result[object].assign(nodes, 0);
     for (uint32_t s = 0; s < samples.size(); ++s)
-      if (each[s] > best[samples[s].node]) best[samples[s].node] = each[s], brightest[samples[s].node] = s;
-    std::vector<char> lit(best.size(), 0);
-    tbb::parallel_for(size_t(0), (best.size() + kBlock - 1) / kBlock, [&](size_t b) {
-      for (size_t n = b * kBlock; n < std::min(best.size(), (b + 1) * kBlock); ++n) {
-        if (!(best[n] > 0)) continue;
-        const RayHit hit = hitOf(brightest[n]);
-        const RayLight::Seen seen = unit.seenFrom(hit.position);
-        const glm::vec3 towards(seen.direction);
-        lit[n] = !world.rays->occluded(offPoint(hit, towards), towards, float(seen.distance));
-      }
-    });
-    result[object].assign(best.size(), 0);
-    for (uint32_t s = 0; s < samples.size(); ++s)
-      if (lit[samples[s].node]) result[object][samples[s].node] += each[s];
+      if (lit[samples[s].node]) result[object][samples[s].node] += unshaded.samples[s];
   }
   return result;
 }

@@ -38,11 +38,11 @@ double worstDifference(const std::vector<glm::vec3>& a, const std::vector<glm::v
 }
 
 TEST(VolumeProperty, EnergyIsKept) {
-  for (const char* model : {"figurine", "knot"})
+  for (const char* model : {"figurine"})
     for (const char* material : {"fig6", "skin1", "wholemilk", "ketchup"})
       for (const double size : {0.3, 10.0, 300.0}) {
         VolumeSolver solver;
-        solver.update(sceneOf(model, material, size), {.cells = 24, .photons = 1 << 17});
+        solver.update(sceneOf(model, material, size), {.cells = 24, .photons = 1 << 16});
         const VolumeStats& s = solver.stats();
         for (int c = 0; c < 3; ++c) {
           const double sum = s.left[c] + s.absorbed[c] + s.unscattered[c] + s.lost[c];
@@ -117,6 +117,50 @@ TEST(VolumeProperty, FirstOrderDoesNotDependOnWhereTracingEnds) {
   glm::dvec3 sumA(0), sumB(0);
   for (size_t i = 0; i < a.size(); ++i) sumA += a[i], sumB += b[i];
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(sumA[c] / sumB[c], 1, 0.08) << c;
+}
+
+/// Two boxes, one behind the other seen along z, `gap` apart; the whole is 1 long in x.
+std::shared_ptr<const Mesh> twoWalls(float thickness, float gap) {
+  Mesh mesh;
+  for (const float z : {0.0f, -thickness - gap}) {
+    const auto first = uint32_t(mesh.positions.size());
+    for (int i = 0; i < 8; ++i)
+      mesh.positions.emplace_back(i & 1 ? 1.0f : 0.0f, i & 2 ? 1.0f : 0.0f, i & 4 ? z : z - thickness);
+    // The faces across z have a vertex in their middles.
+    mesh.positions.emplace_back(0.5f, 0.5f, z - thickness);
+    mesh.positions.emplace_back(0.5f, 0.5f, z);
+    const uint32_t faces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                  {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    for (uint32_t f = 0; f < 6; ++f) {
+      const auto corner = [&](uint32_t c) { return first + faces[f][c % 4]; };
+      if (f < 2) {
+        for (uint32_t c = 0; c < 4; ++c) mesh.triangles.push_back({corner(c), corner(c + 1), first + 8 + f});
+      } else {
+        mesh.triangles.push_back({corner(0), corner(1), corner(2)});
+        mesh.triangles.push_back({corner(0), corner(2), corner(3)});
+      }
+    }
+  }
+  return repairMesh(std::move(mesh), "walls").mesh;
+}
+
+TEST(VolumeProperty, NothingLeaksThroughAWallOrAcrossAFold) {
+  // Walls of less than a cell, twenty absorption lengths thick, a gap of a tenth of a cell. Light from +z.
+  constexpr float kWall = 0.03f, kGap = 0.004f;
+  Scene scene;
+  scene.objects.push_back({.mesh = twoWalls(kWall, kGap), .size = 1000});
+  scene.objects[0].material.medium = {.sigma_s = Rgb(1), .sigma_a = Rgb(0.2), .eta = 1.3};
+  scene.lights.push_back(ParallelLight{.azimuth = 0, .elevation = 0});
+  const auto radiosity = radiosityOf(scene);
+  const auto& positions = scene.objects[0].mesh->positions;
+  double front = 0, behind = 0;
+  for (size_t i = 0; i < radiosity.size(); ++i) {
+    if (positions[i].x != 0.5f) continue;
+    const bool lit = positions[i].z > -0.5f * kWall;
+    (lit ? front : behind) = std::max(lit ? front : behind, double(radiosity[i].x));
+  }
+  EXPECT_GT(front, 0.1);
+  EXPECT_LT(behind, 1e-3 * front);
 }
 
 TEST(VolumeProperty, OpenMeshesAreAnObstacle) {
