@@ -6,6 +6,7 @@
 //   --models      folder of bunny_filled.ply and nefertiti.ply; what is not there is left out, and said
 //   --methods     profiles (summed by `hierarchical`) and methods; default: the four profiles
 //   --pictures    also writes the pictures side by side
+//   --made yes    only prints the scores that are kept; cells without one are shown as "-"
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <optional>
 
 #include "lychnite/app/image_maker.h"
 #include "lychnite/base/atomic_file.h"
@@ -139,12 +141,21 @@ class Study {
   /// What a column scores in a cell; kept beside the references, so that a study can be stopped and gone on
   /// with.
   Accuracy measure(const Cell& cell, const Column& column) {
-    const fs::path path = references_ / fmt::format("{}-{}.txt", cell.name(), column.name);
-    Accuracy accuracy;
-    if (std::ifstream(path) >> accuracy.rmse >> accuracy.error >> accuracy.bias) return accuracy;
-    accuracy = measureAnew(cell, column);
-    writeTextAtomically(path, fmt::format("{} {} {}\n", accuracy.rmse, accuracy.error, accuracy.bias));
+    if (const auto kept = keptScore(cell, column)) return *kept;
+    const Accuracy accuracy = measureAnew(cell, column);
+    writeTextAtomically(scorePath(cell, column),
+                        fmt::format("{} {} {}\n", accuracy.rmse, accuracy.error, accuracy.bias));
     return accuracy;
+  }
+
+  std::optional<Accuracy> keptScore(const Cell& cell, const Column& column) const {
+    Accuracy accuracy;
+    std::ifstream file(scorePath(cell, column));
+    if (!(file >> accuracy.rmse >> accuracy.error >> accuracy.bias)) return {};
+    return accuracy;
+  }
+  fs::path scorePath(const Cell& cell, const Column& column) const {
+    return references_ / fmt::format("{}-{}.txt", cell.name(), column.name);
   }
 
   Accuracy measureAnew(const Cell& cell, const Column& column) {
@@ -193,6 +204,11 @@ class Study {
 
 using Results = std::map<std::pair<std::string, std::string>, Accuracy>;  // by column and cell
 
+const Accuracy* find(const Results& results, const Column& column, const Cell& cell) {
+  const auto found = results.find({column.name, cell.name()});
+  return found == results.end() ? nullptr : &found->second;
+}
+
 std::string sizesRow() {
   std::string row;
   for (const double size : kSizes) row += fmt::format(" {} mm |", size);
@@ -209,7 +225,9 @@ void printMeans(const char* title, const std::vector<Column>& columns, const std
       double sum = 0, count = 0;
       for (const std::string& model : models)
         for (const char* material : kMaterials) {
-          sum += value(results.at({column.name, Cell{model, material, size}.name()}));
+          const Accuracy* a = find(results, column, {model, material, size});
+          if (!a) continue;
+          sum += value(*a);
           count += 1;
         }
       fmt::print(" {:.1f} |", 100 * sum / count);
@@ -224,8 +242,10 @@ void printCells(const Column& column, const std::vector<std::string>& models, co
     for (const char* material : kMaterials) {
       fmt::print("| {} | {} |", model, material);
       for (const double size : kSizes) {
-        const Accuracy& a = results.at({column.name, Cell{model, material, size}.name()});
-        fmt::print(" {:.1f} ± {:.1f} ({:+.0f}) |", 100 * a.rmse, 100 * a.error, 100 * a.bias);
+        if (const Accuracy* a = find(results, column, {model, material, size}))
+          fmt::print(" {:.1f} ± {:.1f} ({:+.0f}) |", 100 * a->rmse, 100 * a->error, 100 * a->bias);
+        else
+          fmt::print(" - |");
       }
       fmt::print("\n");
     }
@@ -271,6 +291,7 @@ void writePictures(Study& study, const Cell& cell, const std::vector<Column>& co
 
 struct Arguments {
   fs::path references, models, pictures;
+  bool made = false;
   std::string methods = "dipole,better-dipole,normalized-diffusion,tabulated";
 };
 
@@ -281,6 +302,7 @@ Arguments parse(int argc, char** argv) {
     if (flag == "--references") arguments.references = argv[i + 1];
     if (flag == "--models") arguments.models = argv[i + 1];
     if (flag == "--pictures") arguments.pictures = argv[i + 1];
+    if (flag == "--made") arguments.made = true;
     if (flag == "--methods") arguments.methods = argv[i + 1];
   }
   if (arguments.references.empty())
@@ -308,8 +330,10 @@ void run(const Arguments& arguments) {
     for (const char* material : kMaterials)
       for (const double size : kSizes) {
         const Cell cell{model, material, size};
-        for (const Column& column : columns)
-          results[{column.name, cell.name()}] = study.measure(cell, column);
+        for (const Column& column : columns) {
+          const auto score = arguments.made ? study.keptScore(cell, column) : study.measure(cell, column);
+          if (score) results[{column.name, cell.name()}] = *score;
+        }
         fmt::print(stderr, "\r{}/{} {}    ", ++done, all, cell.name());
       }
   printMeans("Relative RMSE in %, mean over models and materials:", columns, models, results,

@@ -14,6 +14,7 @@ namespace lychnite {
 /// collisions there adds to the picture and to its variance, and where the light leaves.
 struct WalkGuideSamples {
   static constexpr int kCells = 32;
+  static constexpr float kCellSize = 2.0f / kCells;  ///< scene units
   struct Cell {
     float count = 0;       ///< fans
     float squares = 0;     ///< of their splats, over the square of the fan's reach

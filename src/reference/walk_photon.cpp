@@ -14,6 +14,7 @@ constexpr float kGoldenAngle = 2.39996323f;
 constexpr int kFollowed = 2;        // mirrorings inside that a fan's rays go through
 constexpr float kFollowChance = 2;  // of a ray that carries all of the photon's flux
 constexpr int kUnaccounted = 1000;  // mirrorings of a photon whose exit no fan stands for
+constexpr float kDeepestCell = 4;   // in mean free paths, of a cell that tells how heavy photons should be
 constexpr int kMostParts = 8;       // of one splitting
 constexpr float kTooLight = 0.4f;   // of the ideal weight: ended by chance below
 constexpr int kByPhase =
@@ -91,7 +92,10 @@ bool WalkPhotons::survives(float threshold) {
 /// Splits a photon that is heavier than it should be here, or ends a light one by chance; returns whether it
 /// goes on.
 bool WalkPhotons::splitOrEnd() {
-  const float ideal = guide_.idealWeight(position_) * world_.fluxUnit;
+  // Where a cell of the guide holds the skin and the dark below it, one weight for all of it would do harm.
+  const float depth = std::fmax(medium().sigma_t.x, std::fmax(medium().sigma_t.y, medium().sigma_t.z)) *
+                      (1 - medium().g) * WalkGuideSamples::kCellSize;
+  const float ideal = depth < kDeepestCell ? guide_.idealWeight(position_) * world_.fluxUnit : 0;
   if (!(ideal > 0)) return survives(kRouletteBelow * world_.fluxUnit);
   const float heavy = weight_.largest() / ideal;
   if (heavy > 2) {
