@@ -11,6 +11,7 @@ namespace {
 
 constexpr float kWidth = 0.5f;    // standard deviation of the kernel, in voxels
 constexpr float kFacing = 0.05f;  // cosine of normals below which nodes are not of one surface
+constexpr float kPerCosine = 8;   // weights fall by e at 29 degrees between normals
 constexpr float kLeast = 1e-12f;
 
 }  // namespace
@@ -29,7 +30,7 @@ void Gather::weigh(const Shape& shape, const glm::vec3& p, const glm::vec3& norm
     const glm::vec3 way = node.position - p;
     const float x = glm::dot(way, way) * perVariance;
     if (x > 12 || (cell != Grid::kNone && !shape.grid.linked(cell, node.cell))) return;
-    const float weight = facing * facing * std::exp(-x);
+    const float weight = std::exp((facing - 1) * kPerCosine - x);
     sum += weight * node.area;
     weights.push_back({n, weight});
   });

@@ -12,6 +12,7 @@ namespace {
 
 constexpr float kWidth = 0.6f, kReach = 1.3f;  // of the kernel, in voxels: standard deviation, cut
 constexpr float kFacing = 0.2f;                // least cosine between normals of one surface
+constexpr float kPerCosine = 8;                // weights fall by e at 29 degrees between normals
 constexpr int kScalings = 8;
 constexpr size_t kBlock = 1024;
 
@@ -41,7 +42,7 @@ Smoother::Smoother(const Grid& grid, const Surface& surface) : surface_(surface)
           if (c.cell == Grid::kNone || !(c.area > 0) || facing < kFacing || d2 > kReach * kReach ||
               !grid.linked(a.cell, c.cell))
             return;
-          parts[b].push_back({n, facing * facing * std::exp(-d2 / (2 * kWidth * kWidth))});
+          parts[b].push_back({n, std::exp((facing - 1) * kPerCosine - d2 / (2 * kWidth * kWidth))});
         });
       counts[i] = uint32_t(parts[b].size() - before);
     }
