@@ -36,6 +36,7 @@ constexpr const char* kMaterials[] = {"fig6", "marble", "skin1", "wholemilk", "s
 constexpr const char* kModels[] = {"sphere", "figurine", "bunny_filled", "nefertiti"};
 constexpr ParallelLight kLight{.azimuth = 150, .elevation = 20};
 constexpr int kResolution = 80;
+constexpr double kMostError = 0.1;  // standard error of a relative RMSE that joins the means
 constexpr double kSecondsOfAHalf = 3, kNoiseOfAHalf = 0.06;  // whichever comes first
 
 /// A method under test, and what it is held against: a whole radiosity, or the radiance of orders two and up.
@@ -215,7 +216,8 @@ std::string sizesRow() {
   return row;
 }
 
-/// Means over models and materials, one row a column of the study.
+/// Means over models and materials of the cells that are known well enough, and how many these are; one row a
+/// column of the study.
 void printMeans(const char* title, const std::vector<Column>& columns, const std::vector<std::string>& models,
                 const Results& results, auto value) {
   fmt::print("\n{}\n\n| |{}\n|-|-|-|-|-|-|-|\n", title, sizesRow());
@@ -226,11 +228,14 @@ void printMeans(const char* title, const std::vector<Column>& columns, const std
       for (const std::string& model : models)
         for (const char* material : kMaterials) {
           const Accuracy* a = find(results, column, {model, material, size});
-          if (!a) continue;
+          if (!a || a->error > kMostError) continue;
           sum += value(*a);
           count += 1;
         }
-      fmt::print(" {:.1f} |", 100 * sum / count);
+      if (count > 0)
+        fmt::print(" {:.0f} ({}) |", 100 * sum / count, count);
+      else
+        fmt::print(" - |");
     }
     fmt::print("\n");
   }
