@@ -7,7 +7,7 @@
 #include "pass/receiver.glsl"
 
 uniform sampler2D moments;    // flux, flux z, flux z^2, flux z^3; z towards the light from centreDepth
-uniform sampler2D profile;    // rows from below: Rd, P, light sent no farther than r
+uniform sampler2D profile;    // rows from below: Rd, P
 uniform float profileScale;
 uniform float centreDepth;
 uniform float boundRadius;    // of the object's bounding sphere, whose centre the axis passes
@@ -17,16 +17,13 @@ uniform sampler2D azimuths;   // cosine and sine for sample (u) and eccentricity
 uniform int sampleCount;
 
 const float kDark = 1e-7;  // a texel with less flux is empty
-const int kExactCells = 4;
+const float kTexelRadius = 0.5641896;  // of the disc with a texel's area
 
 vec3 profileRd(float r) {
-  return textureLod(profile, vec2(profileCoordinate(r, profileScale), 0.5 / 3.0), 0.0).xyz;
+  return textureLod(profile, vec2(profileCoordinate(r, profileScale), 0.25), 0.0).xyz;
 }
 vec3 profileP(float r) {
-  return textureLod(profile, vec2(profileCoordinate(r, profileScale), 1.5 / 3.0), 0.0).xyz;
-}
-vec3 profileNear(float r) {
-  return textureLod(profile, vec2(profileCoordinate(r, profileScale), 2.5 / 3.0), 0.0).xyz;
+  return textureLod(profile, vec2(profileCoordinate(r, profileScale), 0.75), 0.0).xyz;
 }
 
 // The receiver in the light's plane, scaled to its own depth.
@@ -37,7 +34,7 @@ struct Ground {
   float texel;
   float z;         // towards the light, of the receiver as the map sees it
   float depth;     // how far the lit surface lies above the receiver; 0 when the receiver is lit
-  float window;    // of what the map cannot resolve around the receiver: a texel on the slanted surface
+  float window;    // radius of what the map cannot resolve around the receiver: a texel on the slanted surface
   float local;     // flux that enters at the receiver itself, per area of its surface
   float slope2;    // squared slope of the receiver's own surface where it is lit, else 0
 };
@@ -83,7 +80,7 @@ Ground groundOf(LightView view, Receiver r) {
   g.z += lit * above;
   g.slope2 = lit * tan2;
   g.depth = (1.0 - lit) * above;
-  g.window = g.texel * mix(1.0, sqrt(1.0 + tan2), lit);
+  g.window = kTexelRadius * g.texel * mix(1.0, sqrt(1.0 + tan2), lit);
   g.local = lit * max(cosI, 0.0) * textureLod(moments, m.xy, 0.0).x;
   return g;
 }
@@ -97,22 +94,21 @@ struct Sum {
 };
 
 // Mean of the kernel over the ring of squared distances a2 to b2, less what is nearer than the window: that part the
-// receiver answers for itself.
-vec3 kernelMean(float a2, float b2, float window, bool exact) {
-  float middle = 0.5 * (a2 + b2);
-  float share = 1.0 - exp(-middle / (window * window));
-  if (exact && b2 - a2 > 0.02 * b2)
-    return (profileP(sqrt(a2)) - profileP(sqrt(b2))) * (share / (3.141592653589793 * (b2 - a2)));
-  return profileRd(sqrt(middle)) * share;
+// receiver answers for itself. In a thin ring P's digits cancel: the kernel at its middle.
+vec3 kernelMean(float a2, float b2, float window) {
+  float width = max(b2 - a2, 1e-20);
+  float c2 = clamp(window * window, a2, b2);
+  if (width > 0.02 * b2) return (profileP(sqrt(c2)) - profileP(sqrt(b2))) / (3.141592653589793 * width);
+  return profileRd(sqrt(0.5 * (c2 + b2))) * ((b2 - c2) / width);
 }
 
 // Kernel of one cell whose flux sits at height `height` above the receiver at the cell's middle radius q.
-vec3 cellKernel(float a, float b, float q, float start, float height, float window, bool exact) {
+vec3 cellKernel(float a, float b, float q, float start, float height, float window) {
   float ha = start + (height - start) * a / q;
   float hb = start + (height - start) * b / q;
   float a2 = a * a + ha * ha;
   float b2 = b * b + hb * hb;
-  return kernelMean(min(a2, b2), max(a2, b2), window, exact);
+  return kernelMean(min(a2, b2), max(a2, b2), window);
 }
 
 void addCell(inout Sum sum, Ground g, vec2 uv, float area, float a, float b, float q, int index) {
@@ -126,10 +122,9 @@ void addCell(inout Sum sum, Ground g, vec2 uv, float area, float a, float b, flo
   float footprint = exp2(level) * g.texel;
   float slope2 = max((height - g.depth) * (height - g.depth) / (q * q), g.slope2);
   variance -= 0.25 * slope2 * footprint * footprint;
-  bool exact = index < kExactCells;
   vec3 f;
   if (variance <= 1e-9) {
-    f = cellKernel(a, b, q, g.depth, height, g.window, exact);
+    f = cellKernel(a, b, q, g.depth, height, g.window);
   } else {
     // Two nodes with the flux's mean, variance and skewness.
     float third = m.z - 3.0 * m.x * m.y + 2.0 * m.x * m.x * m.x;
@@ -137,8 +132,8 @@ void addCell(inout Sum sum, Ground g, vec2 uv, float area, float a, float b, flo
     float skew = clamp(third / (variance * deviation), -20.0, 20.0);
     float root = sqrt(skew * skew + 4.0);
     float w = 0.5 * (skew + root) / root;
-    f = w * cellKernel(a, b, q, g.depth, height + 0.5 * deviation * (skew - root), g.window, exact) +
-        (1.0 - w) * cellKernel(a, b, q, g.depth, height + 0.5 * deviation * (skew + root), g.window, exact);
+    f = w * cellKernel(a, b, q, g.depth, height + 0.5 * deviation * (skew - root), g.window) +
+        (1.0 - w) * cellKernel(a, b, q, g.depth, height + 0.5 * deviation * (skew + root), g.window);
   }
   sum.radiosity += area * t.x * f;
   sum.weighted += area * area * t.x * f;
@@ -186,7 +181,8 @@ vec3 radiosity(LightView view, Receiver r) {
   float missed = total - sum.flux;
   float taper = max(0.0, 1.0 - pow(missed / max(1e-9, 0.4 * total), 2.0));
   vec3 beta = min(sum.weighted / max(1e-20, sum.weight), 1.5 * sum.faintest);
-  return max(vec3(0.0), sum.radiosity + beta * (taper * missed)) + profileNear(g.window) * g.local;
+  return max(vec3(0.0), sum.radiosity + beta * (taper * missed)) +
+         (profileP(0.0) - profileP(g.window)) * g.local;
 }
 
 // What leaves the surface at the receiver for the light as it is.

@@ -40,7 +40,7 @@ vec3 radiosity(LightView view, vec3 receiver) {
 #endif
     float area = windowArea(view, p, depth) / (size.x * size.y) * lattice[i].w;
     float entering = cosine * (1.0 - fresnelReflectance(min(1.0, cosine), eta)) * area;
-    vec3 Rd = textureLod(profile, vec2(profileCoordinate(distance(p, receiver), profileScale), 0.5 / 3.0), 0.0).xyz;
+    vec3 Rd = textureLod(profile, vec2(profileCoordinate(distance(p, receiver), profileScale), 0.25), 0.0).xyz;
     sum += Rd * irradiance * entering;
   }
   return sum;

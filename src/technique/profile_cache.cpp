@@ -9,30 +9,15 @@
 namespace lychnite {
 namespace {
 
-/// Light that the profile sends no farther than about R: the integral of Rd(r) exp(-(r/R)^2) over the plane, by parts
-/// P(0) - integral over u in [0, 1] of P(R sqrt(-ln u)).
-std::vector<glm::vec3> nearTable(const ProfileTable& table) {
-  constexpr int kSteps = 24;
-  std::vector<glm::vec3> result(size_t(table.size()));
-  for (int i = 0; i < table.size(); ++i) {
-    const double u = (i + 0.5) / table.size(), R = table.scale() * u / (1 - u);
-    glm::dvec3 passed(0);
-    for (int k = 0; k < kSteps; ++k) passed += glm::dvec3(table.P(R * std::sqrt(-std::log((k + 0.5) / kSteps))));
-    result[size_t(i)] = glm::max(glm::vec3(0), table.PTable().front() - glm::vec3(passed / double(kSteps)));
-  }
-  return result;
-}
-
 gpu::Texture tableTexture(const ProfileTable& table) {
   std::vector<float> texels;
-  texels.reserve(size_t(table.size()) * 12);
-  const std::vector<glm::vec3> nearby = nearTable(table);
-  for (const auto* row : {&table.RdTable(), &table.PTable(), &nearby})
+  texels.reserve(size_t(table.size()) * 8);
+  for (const auto* row : {&table.RdTable(), &table.PTable()})
     for (const glm::vec3& entry : *row) texels.insert(texels.end(), {entry.x, entry.y, entry.z, 0.0f});
   gpu::Texture texture({.label = "profile",
                         .format = gpu::Format::kRgba32f,
                         .width = table.size(),
-                        .height = 3,
+                        .height = 2,
                         .filter = gpu::Filter::kLinear});
   texture.upload(std::span<const float>(texels));
   return texture;

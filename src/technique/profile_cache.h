@@ -16,7 +16,7 @@ class ProfileCache {
  public:
   struct Entry {
     Key key;
-    std::optional<gpu::Texture> table;  ///< rows from below: Rd, P, light sent no farther than r
+    std::optional<gpu::Texture> table;  ///< rows from below: Rd, P
     double reach = 1;        ///< beyond it the profile is dark, scene units
     double spiralScale = 1;  ///< of the matched sampler, scene units
     float scale = 1;  ///< of the table's coordinate, scene units
