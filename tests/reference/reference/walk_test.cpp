@@ -234,7 +234,7 @@ TEST(Walk, LightPassesFromPartToPart) {
   scene.camera = PinholeCamera{.position = {0, 0, 100}, .target = {0, 0, 0}, .fov = 3};
   const Image image = renderReference(scene, walkSettings(24, 300));
   EXPECT_GT(middle(image, "", 0.5).y, 5e-5);
-  EXPECT_NEAR(share(image, "escaped").y + share(image, "lost").y, 1, 2e-5);
+  EXPECT_NEAR(share(image, "escaped").y + share(image, "lost").y + share(image, "ended").y, 1, 2e-5);
 }
 
 TEST(Walk, CopesWithOddMediaAndMeshes) {
