@@ -12,7 +12,7 @@ namespace {
 
 constexpr float kWidth = 0.6f, kReach = 1.3f;  // of the kernel, in voxels: standard deviation, cut
 constexpr float kFacing = 0.2f;                // least cosine between normals of one surface
-constexpr float kPerCosine = 8;                // weights fall by e at 29 degrees between normals
+constexpr float kPerCosine = 20;               // weights fall by e at 18 degrees between normals
 constexpr int kScalings = 8;
 constexpr size_t kBlock = 1024;
 

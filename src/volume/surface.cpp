@@ -45,10 +45,11 @@ int cutsOf(uint32_t pieces) {
   return int(std::lround(std::sqrt(double(pieces))));
 }
 
+/// Which of the 24 sectors of the sphere (largest axis, three signs) a normal lies in.
 int directionOf(const glm::vec3& n) {
   const glm::vec3 a = glm::abs(n);
   const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
-  return 2 * axis + (n[axis] > 0 ? 1 : 0);
+  return 8 * axis + (n.x > 0 ? 1 : 0) + (n.y > 0 ? 2 : 0) + (n.z > 0 ? 4 : 0);
 }
 
 }  // namespace
@@ -133,7 +134,7 @@ void Surface::makeNodes() {
     const glm::ivec3 v(glm::floor(q));
     const glm::vec3 in = q - glm::vec3(v);
     const uint64_t half = uint64_t(in.x >= 0.5f) | uint64_t(in.y >= 0.5f) << 1 | uint64_t(in.z >= 0.5f) << 2;
-    keys[i] = {grid_.voxelIndex(v), (uint64_t(s.cell) << 8) | (half << 4) | uint64_t(directionOf(s.normal)),
+    keys[i] = {grid_.voxelIndex(v), (uint64_t(s.cell) << 8) | (half << 5) | uint64_t(directionOf(s.normal)),
                uint32_t(i)};
   });
   std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
