@@ -236,7 +236,8 @@ bool Walk::run(const Progress& progress) {
   bool go = true;
   if (photons && !emission_.empty()) {
     learn();
-    while (go && !enough()) {
+    // Something is traced however short the time.
+    while (go && (multiple_.weight() == 0 || !enough())) {
       go = traceBatch(progress);
       while (go && settings_.components.single &&
              single_.weight() < 1 + multiple_.weight() / double(pixels()))

@@ -265,6 +265,16 @@ TEST(Walk, CopesWithOddMediaAndMeshes) {
   EXPECT_GT(share(dense, "escaped").y, 0.5);
 }
 
+TEST(Walk, TracesSomethingHoweverShortTheTime) {
+  RenderSettings settings = walkSettings(24, 1);
+  settings.timeLimit = 1e-6;
+  const Image image =
+      renderReference(sceneOf(translucent(builtinMesh("sphere"), 10,
+                                          {.sigma_s = Rgb(1), .sigma_a = Rgb(0.1), .g = 0, .eta = 1.3})),
+                      settings);
+  EXPECT_GT(middle(image, "").x, 0);
+}
+
 TEST(Walk, RefusesRealTimeMethods) {
   RenderSettings settings = walkSettings(16, 1);
   settings.method = Method::kAdaptive;
