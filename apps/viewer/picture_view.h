@@ -87,7 +87,6 @@ class PictureView {
   void forget();
 
   const RenderStats* stats() const { return live_.ready() ? &live_.stats() : nullptr; }
-  double scale() const { return live_.whole() ? 1 : pace_.scale(); }
   std::optional<BackgroundWalk::Result> walk() const { return walkShown_ ? walk_.newest() : std::nullopt; }
   std::string walkProblem() const { return walk_.problem(); }
   /// Of left against right, when both are whole.

@@ -180,10 +180,6 @@ std::vector<InputEvent> Window::events(double wait) {
   return std::exchange(events_, {});
 }
 
-void Window::wake() {
-  glfwPostEmptyEvent();
-}
-
 std::string Window::clipboard() const {
   const char* text = glfwGetClipboardString(window_);
   return text ? text : "";

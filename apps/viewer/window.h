@@ -53,8 +53,6 @@ class Window {
   void swap();
   /// What happened since the last call; waits for something to happen, at most so many seconds.
   std::vector<InputEvent> events(double wait);
-  /// Ends a wait of events() from another thread.
-  static void wake();
 
   std::string clipboard() const;
   void setClipboard(const std::string& text);
