@@ -28,7 +28,7 @@ struct VolumeStats {
   size_t cells = 0, nodes = 0, samples = 0, memoryBytes = 0;         ///< of all objects
   int passes = 0;                                                    ///< of photons in the picture
   int iterations = 0;                                                ///< of the solver, all lights and rounds
-  double photons = 0, flights = 0, rays = 0;  ///< of the last pass, lights that were traced again
+  double flights = 0, rays = 0;  ///< of all passes since the last update(), lights that were traced again
   /// Shares of the light that enters, all lights and objects, per channel: leaves after scattering, absorbed,
   /// leaves unscattered, lost in holes and on opaque bodies inside. 1 together up to noise and the residual.
   Rgb left{0}, absorbed{0}, unscattered{0}, lost{0};
