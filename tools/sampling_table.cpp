@@ -1,13 +1,16 @@
 // Makes the tables of docs/sampling.md: relative RMSE of the multiple-scattering component of the light-space
-// samplers against the dipole judge, as it is and after one best overall gain, over six sizes and four
-// materials. Usage: sampling_table MODEL... > table.md   (built-in names or files; some minutes a model)
+// samplers against the judge, over models, materials, six sizes and three lights, one of them from behind.
+// Usage: sampling_table [--materials LIST] [--judge dipole|hierarchical] MODEL... > table.md
+// (built-in names or files; some minutes a model)
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <vector>
 
 #include "lychnite/app/image_maker.h"
 #include "lychnite/base/error.h"
+#include "lychnite/base/text.h"
 #include "lychnite/image/metrics.h"
 #include "lychnite/optics/materials.h"
 #include "lychnite/scene/scene_file.h"
@@ -17,13 +20,15 @@ namespace {
 using namespace lychnite;
 
 constexpr double kSizes[] = {1, 3, 10, 30, 100, 300};
-constexpr const char* kMaterials[] = {"fig6", "marble", "skin1", "wholemilk"};
+constexpr size_t kSizeCount = std::size(kSizes);
+
 struct NamedLight {
   const char* name;
   ParallelLight light;
 };
-constexpr NamedLight kLights[] = {{"front (-30, 40)", {.azimuth = -30, .elevation = 40}},
-                                  {"behind (150, 25)", {.azimuth = 150, .elevation = 25}}};
+constexpr NamedLight kLights[] = {{"front", {.azimuth = -30, .elevation = 40}},
+                                  {"side", {.azimuth = 80, .elevation = 10}},
+                                  {"behind", {.azimuth = 150, .elevation = 25}}};
 
 struct Row {
   const char* name;
@@ -31,8 +36,9 @@ struct Row {
   int samples;
 };
 constexpr Row kRows[] = {{"adaptive", Method::kAdaptive, 32},
-                         {"fixed", Method::kFixed, 32},
+                         {"matched, 16", Method::kMatched, 16},
                          {"matched, 32", Method::kMatched, 32},
+                         {"matched, 48", Method::kMatched, 48},
                          {"matched, 96", Method::kMatched, 96}};
 
 RenderSettings settingsOf(Method method, int samples) {
@@ -40,17 +46,38 @@ RenderSettings settingsOf(Method method, int samples) {
   settings.width = settings.height = 96;
   settings.method = method;
   settings.multipleSamples = samples;
-  settings.tolerance = 0.01;
   settings.components = {.multiple = true, .single = false, .surface = false};
   return settings;
 }
 
-/// Errors of one table row: [material][size].
-struct Errors {
-  Metrics cells[4][6];
+/// Relative errors of one row over the cells of one size.
+struct Cells {
+  double sum = 0, worst = 0, gained = 0;
+  int count = 0;
+  void add(const Metrics& m) {
+    sum += m.relative_rmse;
+    gained += m.relative_rmse_after_gain;
+    worst = std::max(worst, m.relative_rmse);
+    ++count;
+  }
+  void add(const Cells& other) {
+    sum += other.sum;
+    gained += other.gained;
+    worst = std::max(worst, other.worst);
+    count += other.count;
+  }
 };
 
-Scene sceneOf(const Object& object, const char* material, double size, const ParallelLight& light) {
+/// Errors of every row at every size.
+struct Table {
+  Cells cells[std::size(kRows)][kSizeCount];
+  void add(const Table& other) {
+    for (size_t r = 0; r < std::size(kRows); ++r)
+      for (size_t s = 0; s < kSizeCount; ++s) cells[r][s].add(other.cells[r][s]);
+  }
+};
+
+Scene sceneOf(const Object& object, const std::string& material, double size, const ParallelLight& light) {
   Scene scene;
   scene.objects = {object};
   scene.objects[0].size = size;
@@ -59,57 +86,72 @@ Scene sceneOf(const Object& object, const char* material, double size, const Par
   return scene;
 }
 
-void printRow(const char* name, const Errors& errors, bool gain) {
-  fmt::print("| {} |", name);
-  double sum = 0, worst = 0;
-  for (int s = 0; s < 6; ++s) {
-    double mean = 0;
-    for (const auto& material : errors.cells) {
-      const double e = gain ? material[s].relative_rmse_after_gain : material[s].relative_rmse;
-      mean += e / 4;
-      worst = std::max(worst, e);
-    }
-    sum += mean / 6;
-    fmt::print(" {:.1f} |", mean * 100);
-  }
-  fmt::print(" {:.1f} | {:.1f} |\n", sum * 100, worst * 100);
-}
-
-void printTable(const char* title, const std::vector<Errors>& rows, bool gain) {
+void print(const std::string& title, const Table& table) {
   fmt::print(
-      "\n{}\n\n| method | 1 mm | 3 mm | 10 mm | 30 mm | 100 mm | 300 mm | mean | worst cell |\n"
+      "\n### {}\n\n| method | 1 mm | 3 mm | 10 mm | 30 mm | 100 mm | 300 mm | mean | after gain |\n"
       "|-|-|-|-|-|-|-|-|-|\n",
       title);
-  for (size_t r = 0; r < rows.size(); ++r) printRow(kRows[r].name, rows[r], gain);
+  for (size_t r = 0; r < std::size(kRows); ++r) {
+    fmt::print("| {} |", kRows[r].name);
+    Cells all;
+    for (const Cells& cell : table.cells[r]) {
+      fmt::print(" {:.1f} ({:.1f}) |", 100 * cell.sum / cell.count, 100 * cell.worst);
+      all.add(cell);
+    }
+    fmt::print(" {:.1f} | {:.1f} |\n", 100 * all.sum / all.count, 100 * all.gained / all.count);
+  }
+  std::fflush(stdout);
 }
 
-void measure(ImageMaker& maker, const std::string& model, const NamedLight& light) {
-  const Object object = loadObject(model);
-  std::vector<Errors> rows(std::size(kRows));
-  for (size_t m = 0; m < 4; ++m)
-    for (size_t s = 0; s < 6; ++s) {
-      const Scene scene = sceneOf(object, kMaterials[m], kSizes[s], light.light);
-      const Image reference = maker.render(scene, settingsOf(Method::kDipole, 32));
-      for (size_t r = 0; r < rows.size(); ++r)
-        rows[r].cells[m][s] =
-            compare(maker.render(scene, settingsOf(kRows[r].method, kRows[r].samples)), reference).together;
-      fmt::print(stderr, "\r{} {} {}/24   ", model, light.name, m * 6 + s + 1);
+Table measure(ImageMaker& maker, Method judge, const Object& object,
+              const std::vector<std::string>& materials, const NamedLight& light, const std::string& name) {
+  Table table;
+  for (const std::string& material : materials)
+    for (size_t s = 0; s < kSizeCount; ++s) {
+      const Scene scene = sceneOf(object, material, kSizes[s], light.light);
+      const Image reference = maker.render(scene, settingsOf(judge, 32));
+      for (size_t r = 0; r < std::size(kRows); ++r)
+        table.cells[r][s].add(
+            compare(maker.render(scene, settingsOf(kRows[r].method, kRows[r].samples)), reference).together);
+      fmt::print(stderr, "\r{}, {}: {} {} mm      ", name, light.name, material, kSizes[s]);
     }
-  const auto slash = model.find_last_of('/');
-  fmt::print("\n### {}, light from {}\n", slash == std::string::npos ? model : model.substr(slash + 1),
-             light.name);
-  printTable("Relative RMSE in %, as it is (mean over fig6, marble, skin1, wholemilk):", rows, false);
-  printTable("After one best gain per picture:", rows, true);
-  std::fflush(stdout);
+  return table;
+}
+
+void run(Method judge, const std::vector<std::string>& materials, const std::vector<std::string>& models) {
+  ImageMaker maker({});
+  std::map<std::string, Table> lights;
+  Table all;
+  for (const std::string& model : models) {
+    const Object object = loadObject(model);
+    const std::string name = model.substr(model.find_last_of('/') + 1);
+    for (const NamedLight& light : kLights) {
+      const Table table = measure(maker, judge, object, materials, light, name);
+      print(fmt::format("{}, light from {}", name, light.name), table);
+      lights[light.name].add(table);
+      all.add(table);
+    }
+  }
+  for (const auto& [name, table] : lights) print("All models, light from " + name, table);
+  print("Everything", all);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
-    ImageMaker maker({});
-    for (int i = 1; i < argc; ++i)
-      for (const NamedLight& light : kLights) measure(maker, argv[i], light);
+    Method judge = Method::kHierarchical;
+    std::vector<std::string> materials{"fig6", "marble", "skin1", "wholemilk", "skimmilk", "ketchup"}, models;
+    for (int i = 1; i < argc; ++i) {
+      const std::string flag = argv[i];
+      if (flag == "--materials" && i + 1 < argc)
+        materials = split(argv[++i], ',');
+      else if (flag == "--judge" && i + 1 < argc)
+        judge = parseMethod(argv[++i], "--judge");
+      else
+        models.push_back(flag);
+    }
+    run(judge, materials, models);
   } catch (const Error& error) {
     fmt::print(stderr, "sampling_table: {}\n", error.what());
     return 1;

@@ -90,6 +90,8 @@ std::vector<BadFlags> otherFlags() {
           bad("DeviceBeyondTheList", {"--device", "99"}, "99"),
           bad("SeedNegative", {"--seed", "-1"}, "--seed"),
           bad("TimeWithoutUnit", {"--method", "walk", "--time", "60"}, "--time"),
+          bad("InterpolationAboveOne", {"--interpolation", "150%"}, "interpolation"),
+          bad("InterpolationNan", {"--interpolation", "nan"}, "interpolation"),
           bad("MapTooSmall", {"--map", "64"}, "64"),
           bad("CameraFov", {"--camera", "orbit:0,0,1,200"}, "fov"),
           bad("BackgroundNegative", {"--background", "-1"}, "background"),
