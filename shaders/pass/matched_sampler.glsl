@@ -39,8 +39,9 @@ struct Ground {
   float slope2;    // squared slope of the receiver's own surface where it is lit, else 0
 };
 
-// Height of the lit surface above z near uv: the candidate nearest to it among the four texels and their mean.
-float surfaceAbove(vec2 uv, float z, float fallbackLevels) {
+// Height of the lit surface near uv above the plane that is z high there and rises by `slope` along the map's axes: the
+// candidate nearest to it among the four texels and their mean.
+float surfaceAbove(vec2 uv, float z, vec2 slope, float texel, float fallbackLevels) {
   vec2 size = vec2(textureSize(moments, 0));
   vec2 t = uv * size - 0.5;
   ivec2 base = ivec2(floor(t));
@@ -49,7 +50,7 @@ float surfaceAbove(vec2 uv, float z, float fallbackLevels) {
     ivec2 at = clamp(base + ivec2(i & 1, i >> 1), ivec2(0), ivec2(size) - 1);
     vec2 m = texelFetch(moments, at, 0).xy;
     if (m.x < kDark) continue;
-    float above = m.y / m.x - z;
+    float above = m.y / m.x - z - dot(slope, (vec2(at) - t) * texel);
     if (abs(above) < abs(best)) best = above;
   }
   vec2 mean = textureLod(moments, uv, 0.0).xy;
@@ -70,12 +71,14 @@ Ground groundOf(LightView view, Receiver r) {
   g.texel = g.width / float(textureSize(moments, 0).x);
   g.z = centreDepth - m.z;
   g.slope2 = 0.0;
-  float above = surfaceAbove(m.xy, g.z, log2(float(textureSize(moments, 0).x)));
   float cosI = -dot(r.normal, lightTravel(view, r.position));
   float tan2 = (1.0 - cosI * cosI) / max(0.02, cosI * cosI);
-  // Lit: put the receiver onto the surface that the map holds, whose texels know it only to within their slope. Faded,
+  vec2 across = vec2(dot(r.normal, view.right), dot(r.normal, view.up));
+  vec2 slope = cosI > 0.0 ? -across / max(0.14, cosI) : vec2(0.0);
+  float above = surfaceAbove(m.xy, g.z, slope, g.texel, log2(float(textureSize(moments, 0).x)));
+  // Lit: put the receiver onto the surface that the map holds, which leaves the receiver's plane by its bend only. Faded,
   // so that the edge of a shadow does not follow the texels.
-  float slack = g.texel * (1.5 * sqrt(tan2) + 0.25);
+  float slack = 0.25 * g.texel * (1.0 + sqrt(tan2));
   float lit = cosI > 0.0 ? 1.0 - smoothstep(0.5 * slack, 2.0 * slack, abs(above)) : 0.0;
   g.z += lit * above;
   g.slope2 = lit * tan2;
@@ -93,22 +96,22 @@ struct Sum {
   vec3 faintest;      // smallest kernel among the outermost quarter
 };
 
-// Mean of the kernel over the ring of squared distances a2 to b2, less what is nearer than the window: that part the
-// receiver answers for itself. In a thin ring P's digits cancel: the kernel at its middle.
-vec3 kernelMean(float a2, float b2, float window) {
-  float width = max(b2 - a2, 1e-20);
-  float c2 = clamp(window * window, a2, b2);
-  if (width > 0.02 * b2) return (profileP(sqrt(c2)) - profileP(sqrt(b2))) / (3.141592653589793 * width);
-  return profileRd(sqrt(0.5 * (c2 + b2))) * ((b2 - c2) / width);
+// Mean of the kernel over the ring of squared distances a2 to b2. In a thin ring P's digits cancel: the kernel at its
+// middle.
+vec3 kernelMean(float a2, float b2) {
+  float width = b2 - a2;
+  if (width > 0.02 * b2) return (profileP(sqrt(a2)) - profileP(sqrt(b2))) / (3.141592653589793 * width);
+  return profileRd(sqrt(0.5 * (a2 + b2)));
 }
 
-// Kernel of one cell whose flux sits at height `height` above the receiver at the cell's middle radius q.
+// Kernel of one cell whose flux sits at height `height` above the receiver at the cell's middle radius q. Distances are
+// rounded off by the window: what that takes away near the receiver, it answers for itself.
 vec3 cellKernel(float a, float b, float q, float start, float height, float window) {
   float ha = start + (height - start) * a / q;
   float hb = start + (height - start) * b / q;
-  float a2 = a * a + ha * ha;
-  float b2 = b * b + hb * hb;
-  return kernelMean(min(a2, b2), max(a2, b2), window);
+  float a2 = a * a + ha * ha + window * window;
+  float b2 = b * b + hb * hb + window * window;
+  return kernelMean(min(a2, b2), max(a2, b2));
 }
 
 void addCell(inout Sum sum, Ground g, vec2 uv, float area, float a, float b, float q, int index) {
