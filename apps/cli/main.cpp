@@ -81,6 +81,7 @@ int run(int argc, char** argv) {
   addView(app, action);
   addCompare(app, action);
   addSlab(app, action);
+  addBench(app, action);
   addInfo(app, action);
   addMaterials(app, action);
   addModels(app, action);
@@ -108,7 +109,7 @@ int main(int argc, char** argv) {
     return cli::statusOf(error.kind());
   } catch (const Interrupted&) {
     cli::finishProgress();
-    fmt::print(stderr, "lychnite: interrupted; the unfinished picture was not kept\n");
+    fmt::print(stderr, "lychnite: interrupted; what was not finished was not kept\n");
     return 130;
   } catch (const std::bad_alloc&) {
     cli::finishProgress();

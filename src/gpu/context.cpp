@@ -252,6 +252,11 @@ const DeviceInfo& Context::device() const {
   return impl_->info;
 }
 
+void Context::finish() {
+  const CurrentGuard guard(*impl_->state);
+  glFinish();
+}
+
 size_t Context::allocatedBytes() const {
   return impl_->state->allocatedBytes;
 }

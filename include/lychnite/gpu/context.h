@@ -44,6 +44,8 @@ class Context {
 
   void makeCurrent();
   const DeviceInfo& device() const;
+  /// Waits until the device has done all that was asked of it.
+  void finish();
   /// Bytes held on the device by the buffers and textures made in this context.
   size_t allocatedBytes() const;
   /// Throws Error (Kind::kDevice) with the driver's text when an OpenGL error was reported since the last

@@ -1,0 +1,166 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "lychnite/app/bench.h"
+#include "lychnite/base/error.h"
+
+namespace lychnite {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Of normally scattered values, 1.4826 median deviations are one standard deviation.
+constexpr double kDeviationsOfNormal = 1.4826;
+constexpr double kLeastNoise = 0.01;
+
+double medianOf(std::vector<double>& values) {
+  const size_t half = values.size() / 2;
+  std::nth_element(values.begin(), values.begin() + long(half), values.end());
+  const double upper = values[half];
+  if (values.size() % 2 == 1) return upper;
+  return (*std::max_element(values.begin(), values.begin() + long(half)) + upper) / 2;
+}
+
+Json toJson(const Statistic& s) {
+  return {{"median", s.median}, {"deviation", s.deviation}};
+}
+
+Statistic statisticFrom(const Json& json) {
+  return {json.at("median"), json.at("deviation")};
+}
+
+Json toJson(const BenchRow& row) {
+  Json json{{"scene", row.scene}, {"method", row.method}, {"change", row.change}};
+  if (!row.missing.empty()) {
+    json["missing"] = row.missing;
+    return json;
+  }
+  json.update({{"width", row.width},
+               {"height", row.height},
+               {"map_size", row.mapSize},
+               {"samples", row.samples},
+               {"single_samples", row.singleSamples},
+               {"triangles", row.triangles},
+               {"vertices", row.vertices},
+               {"covered_pixels", row.coveredPixels},
+               {"map_bytes", row.mapBytes},
+               {"gpu_bytes", row.gpuBytes},
+               {"frames_per_second", row.framesPerSecond()},
+               {"frame_ms", toJson(row.frame)},
+               {"cpu_ms", toJson(row.cpuMs)}});
+  json["passes"] = Json::array();
+  for (const BenchPass& pass : row.passes)
+    json["passes"].push_back({{"name", pass.name}, {"gpu_ms", toJson(pass.gpuMs)}});
+  json["all_frames_ms"] = row.frameMs;
+  return json;
+}
+
+BenchRow rowFrom(const Json& json) {
+  BenchRow row;
+  row.scene = json.at("scene");
+  row.method = json.at("method");
+  row.change = json.at("change");
+  if (json.contains("missing")) {
+    row.missing = json.at("missing");
+    return row;
+  }
+  row.width = json.at("width");
+  row.height = json.at("height");
+  row.mapSize = json.at("map_size");
+  row.samples = json.at("samples");
+  row.singleSamples = json.at("single_samples");
+  row.triangles = json.at("triangles");
+  row.vertices = json.at("vertices");
+  row.coveredPixels = json.at("covered_pixels");
+  row.mapBytes = json.at("map_bytes");
+  row.gpuBytes = json.at("gpu_bytes");
+  row.frame = statisticFrom(json.at("frame_ms"));
+  row.cpuMs = statisticFrom(json.at("cpu_ms"));
+  for (const Json& pass : json.at("passes"))
+    row.passes.push_back({pass.at("name"), statisticFrom(pass.at("gpu_ms"))});
+  row.frameMs = json.at("all_frames_ms").get<std::vector<double>>();
+  return row;
+}
+
+BenchReport reportFrom(const Json& json) {
+  BenchReport report;
+  report.version = json.at("lychnite");
+  report.date = json.at("date");
+  report.device = json.at("device");
+  report.driver = json.at("driver");
+  report.software = json.at("software");
+  report.cores = json.at("cores");
+  report.load = json.at("load").get<std::array<double, 2>>();
+  report.frames = json.at("frames");
+  report.warmUp = json.at("warm_up");
+  for (const Json& row : json.at("rows")) report.rows.push_back(rowFrom(row));
+  return report;
+}
+
+bool sameWork(const BenchRow& a, const BenchRow& b) {
+  return a.scene == b.scene && a.method == b.method && a.change == b.change && a.width == b.width &&
+         a.height == b.height && a.mapSize == b.mapSize && a.samples == b.samples &&
+         a.singleSamples == b.singleSamples && a.missing.empty() && b.missing.empty();
+}
+
+}  // namespace
+
+Statistic statisticOf(std::vector<double> values) {
+  if (values.empty()) return {};
+  Statistic result;
+  result.median = medianOf(values);
+  for (double& value : values) value = std::abs(value - result.median);
+  result.deviation = medianOf(values);
+  return result;
+}
+
+std::string benchJson(const BenchReport& report) {
+  Json json{{"lychnite", report.version}, {"date", report.date},         {"device", report.device},
+            {"driver", report.driver},    {"software", report.software}, {"cores", report.cores},
+            {"load", report.load},        {"frames", report.frames},     {"warm_up", report.warmUp},
+            {"rows", Json::array()}};
+  for (const BenchRow& row : report.rows) json["rows"].push_back(toJson(row));
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+BenchReport readBenchJson(const std::filesystem::path& path) {
+  const auto refuse = [&](std::string found) {
+    throw Error({.where = path.string(),
+                 .expected = "results of `lychnite bench --json`",
+                 .found = std::move(found),
+                 .todo = ""});
+  };
+  std::ifstream file(path);
+  if (!file) refuse("no file that can be read");
+  try {
+    return reportFrom(Json::parse(file));
+  } catch (const Json::parse_error& error) {
+    refuse(fmt::format("no JSON (byte {})", error.byte));
+  } catch (const Json::exception& error) {
+    refuse(error.what());
+  }
+  return {};
+}
+
+std::vector<BenchRatio> compareBench(const BenchReport& older, const BenchReport& newer) {
+  std::vector<BenchRatio> result;
+  for (const BenchRow& now : newer.rows) {
+    const auto before = std::find_if(older.rows.begin(), older.rows.end(),
+                                     [&](const BenchRow& row) { return sameWork(row, now); });
+    if (before == older.rows.end()) continue;
+    std::vector<double> ratios;
+    for (size_t i = 0; i < std::min(now.frameMs.size(), before->frameMs.size()); ++i)
+      if (before->frameMs[i] > 0) ratios.push_back(now.frameMs[i] / before->frameMs[i]);
+    if (ratios.empty()) continue;
+    const Statistic ratio = statisticOf(std::move(ratios));
+    result.push_back({now.scene, now.method, now.change, ratio.median,
+                      std::max(kLeastNoise, kDeviationsOfNormal * ratio.deviation)});
+  }
+  return result;
+}
+
+}  // namespace lychnite
