@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
+
 #include "commands.h"
 #include "lychnite/app/bench.h"
 #include "lychnite/base/atomic_file.h"

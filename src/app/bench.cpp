@@ -8,6 +8,7 @@
 #include <ctime>
 #include <map>
 #include <optional>
+#include <span>
 #include <thread>
 
 #include "lychnite/app/image_maker.h"

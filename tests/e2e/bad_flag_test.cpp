@@ -104,6 +104,15 @@ std::vector<BadFlags> otherFlags() {
           {"SlabPhotons", {"slab", "--material", "marble", "--photons", "0"}, "--photons"},
           {"SlabG", {"slab", "--material", "marble", "--g", "2"}, "g: "},
           {"HeatmapFormat", {"compare", "a.exr", "b.exr", "--heatmap", "x.bmp"}, "x.bmp"},
+          {"BenchMethods", {"bench", "--methods", "adaptive,walk"}, "'walk'"},
+          {"BenchMethodUnknown", {"bench", "--methods", "matchd"}, "matched"},
+          {"BenchMethodsNone", {"bench", "--methods", ""}, "--methods"},
+          {"BenchModels", {"bench", "--models", "nowhere"}, "--models"},
+          {"BenchFrames", {"bench", "--frames", "0"}, "--frames"},
+          {"BenchWarmUp", {"bench", "--warm-up", "many"}, "--warm-up"},
+          {"BenchDevice", {"bench", "--device", "toaster"}, "toaster"},
+          {"BenchJson", {"bench", "--json", "none/b.json"}, "--json"},
+          {"BenchQuick", {"bench", "--quik"}, "'--quick'"},
           {"CompareOneFile", {"compare", "a.exr"}, "B"}};
 }
 
