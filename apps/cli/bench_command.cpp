@@ -102,6 +102,10 @@ void print(const BenchReport& report) {
 bool printRatios(const BenchReport& older, const BenchReport& newer) {
   if (older.device != newer.device)
     fmt::print("\nanother device: {} then, {} now", older.device, newer.device);
+  for (const BenchReport* report : {&older, &newer})
+    if (report->load[0] >= 1)
+      fmt::print("\nother programs were running {} (load {:.1f}): more noise than is seen within a run",
+                 report == &older ? "then" : "now", report->load[0]);
   fmt::print("\n{:9} {:9} {:7} {:>9} {:>7}   now over {}\n", "scene", "method", "change", "time", "noise",
              older.date);
   bool worse = false;

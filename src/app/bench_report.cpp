@@ -15,7 +15,9 @@ using Json = nlohmann::ordered_json;
 
 // Of normally scattered values, 1.4826 median deviations are one standard deviation.
 constexpr double kDeviationsOfNormal = 1.4826;
-constexpr double kLeastNoise = 0.01;
+// Two of them, and what clocks and caches differ by from run to run even on a machine with nothing else to
+// do.
+constexpr double kNoise = 2 * kDeviationsOfNormal, kLeastNoise = 0.02;
 
 double medianOf(std::vector<double>& values) {
   const size_t half = values.size() / 2;
@@ -157,8 +159,8 @@ std::vector<BenchRatio> compareBench(const BenchReport& older, const BenchReport
       if (before->frameMs[i] > 0) ratios.push_back(now.frameMs[i] / before->frameMs[i]);
     if (ratios.empty()) continue;
     const Statistic ratio = statisticOf(std::move(ratios));
-    result.push_back({now.scene, now.method, now.change, ratio.median,
-                      std::max(kLeastNoise, kDeviationsOfNormal * ratio.deviation)});
+    result.push_back(
+        {now.scene, now.method, now.change, ratio.median, std::max(kLeastNoise, kNoise * ratio.deviation)});
   }
   return result;
 }

@@ -75,7 +75,8 @@ BenchReport readBenchJson(const std::filesystem::path& path);
 struct BenchRatio {
   std::string scene, method, change;
   double ratio = 1;  ///< new time over old, median over the frames that both have
-  double noise = 0;  ///< how far the frames' ratios scatter: 1.4826 median deviations, 1 % at least
+  double noise =
+      0;  ///< two standard deviations of the frames' ratios (from their median deviation), 2 % at least
   bool regression() const { return ratio > 1 + noise; }
 };
 /// Of the rows that both reports have at the same resolution, map and samples.

@@ -69,7 +69,7 @@ TEST(BenchCompare, DividesEachFrameByItself) {
   // Frames of very different work, each half as slow again: no noise at all beyond the least.
   const BenchRatio slower = onlyRatio({10, 100, 40, 20}, {15, 150, 60, 30});
   EXPECT_DOUBLE_EQ(slower.ratio, 1.5);
-  EXPECT_DOUBLE_EQ(slower.noise, 0.01);
+  EXPECT_DOUBLE_EQ(slower.noise, 0.02);
   EXPECT_TRUE(slower.regression());
 }
 
@@ -77,11 +77,14 @@ TEST(BenchCompare, ASlowdownWithinTheNoiseIsNoRegression) {
   // Ratios 0.8, 1.1, 1.4: median 1.1, deviation 0.3.
   const BenchRatio noisy = onlyRatio({10, 10, 10}, {8, 11, 14});
   EXPECT_DOUBLE_EQ(noisy.ratio, 1.1);
-  EXPECT_NEAR(noisy.noise, 1.4826 * 0.3, 1e-12);
+  EXPECT_NEAR(noisy.noise, 2 * 1.4826 * 0.3, 1e-12);
   EXPECT_FALSE(noisy.regression());
   EXPECT_FALSE(onlyRatio({10, 10, 10}, {10, 10, 10}).regression());
   EXPECT_FALSE(onlyRatio({10, 10, 10}, {5, 5, 5}).regression());
-  EXPECT_TRUE(onlyRatio({10, 10, 10}, {10.2, 10.2, 10.2}).regression());
+  EXPECT_FALSE(onlyRatio({10, 10, 10}, {10.1, 10.1, 10.1}).regression());
+  EXPECT_TRUE(onlyRatio({10, 10, 10}, {10.3, 10.3, 10.3}).regression());
+  // Ratios 1.4, 1.5, 1.6: far beyond their scatter.
+  EXPECT_TRUE(onlyRatio({10, 10, 10}, {14, 15, 16}).regression());
 }
 
 TEST(BenchCompare, UsesTheFramesThatBothHave) {
