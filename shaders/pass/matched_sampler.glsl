@@ -13,7 +13,7 @@ uniform float centreDepth;
 uniform float boundRadius;    // of the object's bounding sphere, whose centre the axis passes
 uniform float spiralScale;    // half of the samples lie within this distance
 uniform float reach;          // beyond it the profile is dark in every channel
-uniform sampler2D azimuths;   // cosine and sine for sample (u) and eccentricity (v), see technique/multiple/spiral.h
+uniform sampler2D azimuths;   // cosine and sine for turn (u) and eccentricity (v), see technique/multiple/spiral.h
 uniform int sampleCount;
 
 const float kDark = 1e-7;  // a texel with less flux is empty
@@ -159,10 +159,14 @@ vec3 radiosity(LightView view, Receiver r) {
   float e = 0.9 * (farShare - nearShare) / max(1e-9, farShare + nearShare);
   Sum sum = Sum(vec3(0.0), vec3(0.0), 0.0, 0.0, vec3(1e30));
   float inverse = 1.0 / float(sampleCount);
-  float rows = float(textureSize(azimuths, 0).y);
-  float row = (e / 0.9 * (rows - 1.0) + 0.5) / rows;
+  vec2 table = vec2(textureSize(azimuths, 0));
+  float row = (e / 0.9 * (table.y - 1.0) + 0.5) / table.y;
+  // The golden angle's turns are the map's own, not counted from `inwards`: the pattern would spin where the receiver
+  // crosses the axis.
+  float inwardsTurn = atan(inwards.y, inwards.x) / 6.283185307179586;
   for (int i = 0; i < sampleCount; ++i) {
-    vec2 phi = textureLod(azimuths, vec2((float(i) + 0.5) * inverse, row), 0.0).xy;
+    float turn = fract(0.6180339887498949 * float(i) - inwardsTurn);
+    vec2 phi = textureLod(azimuths, vec2((turn * (table.x - 1.0) + 0.5) / table.x, row), 0.0).xy;
     float edge = min(length(vec2(distanceToCircle(e0, rc, phi.x, phi.y), d)), farthest);
     float share = radialShare(edge, spiralScale) - g0;
     vec3 at = vec3(float(i), float(i) + 0.5, float(i) + 1.0) * (inverse * share) + g0;

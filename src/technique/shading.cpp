@@ -70,14 +70,14 @@ MultipleMatchedShading::MultipleMatchedShading()
     : coarseProgram_(shadingProgram("matched, coarse", "pass/multiple_matched_coarse.frag")),
       program_(shadingProgram("matched", "pass/multiple_matched.frag")) {}
 
-const gpu::Texture& MultipleMatchedShading::azimuths(int samples) {
-  if (azimuths_ && azimuths_->width() == samples) return *azimuths_;
+const gpu::Texture& MultipleMatchedShading::azimuths() {
+  if (azimuths_) return *azimuths_;
   azimuths_.emplace(gpu::TextureDesc{.label = "azimuths",
                                      .format = gpu::Format::kRg32f,
-                                     .width = samples,
+                                     .width = kAzimuthColumns,
                                      .height = kAzimuthRows,
                                      .filter = gpu::Filter::kLinear});
-  const std::vector<glm::vec2> table = azimuthTable(samples, kAzimuthRows);
+  const std::vector<glm::vec2> table = azimuthTable();
   azimuths_->upload(std::span<const float>(&table[0].x, table.size() * 2));
   return *azimuths_;
 }
@@ -105,7 +105,7 @@ void MultipleMatchedShading::setUniforms(gpu::Program& program, const ShadingInp
   map.view.setUniforms(program);
   program.setTexture("moments", *map.moments);
   program.setTexture("profile", *profile.table);
-  program.setTexture("azimuths", azimuths(in.settings.multipleSamples));
+  program.setTexture("azimuths", azimuths());
   program.set("profileScale", profile.scale);
   program.set("centreDepth", map.view.centreDepth);
   program.set("boundRadius", target.bounds.radius);

@@ -42,7 +42,7 @@ class MultipleMatchedShading {
     gpu::Texture radiosity, surface;
     gpu::Framebuffer framebuffer;
   };
-  const gpu::Texture& azimuths(int samples);
+  const gpu::Texture& azimuths();
   Coarse& coarse(const CameraFrame& camera);
   void setUniforms(gpu::Program& program, const ShadingInputs& in, size_t object, size_t light);
   void drawCoarse(const ShadingInputs& in, size_t object, size_t light);

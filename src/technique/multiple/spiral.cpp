@@ -19,14 +19,14 @@ double warpedAzimuth(double m, double e) {
   return phi;
 }
 
-std::vector<glm::vec2> azimuthTable(int samples, int rows) {
+std::vector<glm::vec2> azimuthTable() {
   std::vector<glm::vec2> table;
-  table.reserve(size_t(samples) * size_t(rows));
-  for (int row = 0; row < rows; ++row) {
-    const double e = kLargestEccentricity * row / (rows - 1);
-    for (int i = 0; i < samples; ++i) {
-      const double turn = i * (std::numbers::phi - 1);
-      const double phi = warpedAzimuth(2 * std::numbers::pi * (turn - std::floor(turn) - 0.5), e);
+  table.reserve(size_t(kAzimuthColumns) * size_t(kAzimuthRows));
+  for (int row = 0; row < kAzimuthRows; ++row) {
+    const double e = kLargestEccentricity * row / (kAzimuthRows - 1);
+    for (int column = 0; column < kAzimuthColumns; ++column) {
+      const double turn = double(column) / (kAzimuthColumns - 1);
+      const double phi = warpedAzimuth(2 * std::numbers::pi * (turn - 0.5), e);
       table.emplace_back(std::cos(phi), std::sin(phi));
     }
   }

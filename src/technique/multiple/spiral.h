@@ -12,11 +12,13 @@ namespace lychnite {
 /// 2 pi. To 1e-12.
 double warpedAzimuth(double m, double e);
 
-/// (cos, sin) of the azimuths of `samples` golden-angle turns (columns) for `rows` eccentricities from 0 to
-/// kLargestEccentricity (rows): what the shader looks up instead of solving for each sample of each pixel.
-std::vector<glm::vec2> azimuthTable(int samples, int rows);
+/// (cos, sin) of the warped azimuth for m from -pi to pi (kAzimuthColumns columns, both ends included) and
+/// for eccentricities from 0 to kLargestEccentricity (kAzimuthRows rows): what the shader looks up instead of
+/// solving for each sample of each pixel.
+std::vector<glm::vec2> azimuthTable();
 
 inline constexpr double kLargestEccentricity = 0.9;
+inline constexpr int kAzimuthColumns = 257;
 inline constexpr int kAzimuthRows = 64;
 
 }  // namespace lychnite
