@@ -158,8 +158,7 @@ RenderSettings settingsFromFlags(const Flags& flags) {
     settings.singleSamples = wholeNumber(flags.singleSamples, "--single-samples");
   if (!flags.cells.empty()) settings.cells = wholeNumber(flags.cells, "--cells");
   if (!flags.collisions.empty()) settings.collisions = wholeNumber(flags.collisions, "--collisions");
-  if (!flags.interpolation.empty())
-    settings.interpolation = share(flags.interpolation, "--interpolation");
+  if (!flags.interpolation.empty()) settings.interpolation = share(flags.interpolation, "--interpolation");
   if (!flags.tolerance.empty()) settings.tolerance = share(flags.tolerance, "--tolerance");
   if (!flags.noise.empty()) settings.noise = share(flags.noise, "--noise");
   if (!flags.time.empty()) settings.timeLimit = duration(flags.time, "--time");

@@ -12,7 +12,7 @@ using Cell = WalkGuideSamples::Cell;
 constexpr float kEnoughFans = 24;  // to judge a cell by itself
 constexpr float kPrior = 4;        // fans of the usual kind that every cell is taken to have seen as well
 constexpr float kMostKappa = 12;
-constexpr float kEnoughPassing = 150;  // collisions
+constexpr float kEnoughPassing = 150;               // collisions
 constexpr float kLeastRoot = 0.1f, kMostRoot = 10;  // of the usual one
 
 void add(WalkGuideSamples::Start& sum, const WalkGuideSamples::Start& other) {

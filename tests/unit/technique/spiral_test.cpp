@@ -20,7 +20,8 @@ TEST(Spiral, AzimuthSolvesItsEquation) {
     }
 }
 
-// The share of azimuths below phi is (phi + e sin phi + pi) / 2 pi when their density is (1 + e cos phi) / 2 pi.
+// The share of azimuths below phi is (phi + e sin phi + pi) / 2 pi when their density is (1 + e cos phi) / 2
+// pi.
 TEST(Spiral, TableFollowsTheDensity) {
   const auto table = azimuthTable();
   ASSERT_EQ(table.size(), size_t(kAzimuthColumns * kAzimuthRows));
