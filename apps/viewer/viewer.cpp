@@ -5,14 +5,13 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
-#include <fstream>
 #include <limits>
-#include <sstream>
 
 #include "hands.h"
 #include "lychnite/app/profile_store.h"
 #include "lychnite/app/scene_moves.h"
 #include "lychnite/base/error.h"
+#include "lychnite/base/text_file.h"
 #include "lychnite/gpu/context.h"
 #include "lychnite/image/io.h"
 #include "player.h"
@@ -30,16 +29,6 @@ constexpr int kFramesAfterInput = 3;       // a control may need some to settle
 constexpr double kPlayedFrame = 1 / 60.0;  // seconds that a frame of a script stands for
 constexpr double kSlowSeconds = 0.1;
 constexpr size_t kKeptFrames = 120;
-
-std::string contents(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file)
-    throw Error(
-        {.where = path.string(), .expected = "", .found = "cannot be opened", .todo = "check the name"});
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 /// What the window shows, as a picture that writePng gives back as it is.
 Image windowImage(const gpu::Framebuffer& window) {
@@ -179,7 +168,7 @@ void Viewer::makePlayer() {
   std::string where = "--screenshot";
   if (!options_.play.empty()) {
     where = options_.play.string();
-    steps = parseScript(contents(options_.play), where);
+    steps = parseScript(readText(options_.play), where);
   }
   if (!options_.screenshot.empty()) {
     ScriptStep step{.kind = ScriptStep::Kind::kWaitRest};

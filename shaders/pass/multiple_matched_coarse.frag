@@ -5,8 +5,6 @@ layout(location = 0) out vec4 coarseRadiosity;  // a: 1 where there is one
 layout(location = 1) out vec4 coarseSurface;    // depth along the camera's axis, octahedral normal
 
 void main() {
-  coarseRadiosity = vec4(0.0);
-  coarseSurface = vec4(0.0);
   Receiver receivers[4];
   // The four samples around the middle of 2 x 2 pixels.
   if (loadReceivers(ivec2(gl_FragCoord.xy) * 4 + 1, receivers) != 1 || receivers[0].weight < 1.0) discard;

@@ -9,6 +9,7 @@
 
 #include "lychnite/base/atomic_file.h"
 #include "lychnite/base/error.h"
+#include "lychnite/base/text.h"
 
 namespace lychnite {
 namespace fs = std::filesystem;
@@ -48,18 +49,6 @@ Preferences parse(const fs::path& path) {
         result.recent.push_back(*text);
   }
   return result;
-}
-
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    if (static_cast<unsigned char>(c) < 0x20)
-      result += fmt::format("\\u{:04x}", int(c));
-    else
-      result += c;
-  }
-  return result + "\"";
 }
 
 }  // namespace
@@ -103,7 +92,7 @@ void writePreferences(const Preferences& preferences, const fs::path& path, cons
   std::string text = fmt::format(
       "window_width = {}\nwindow_height = {}\npanel_width = {}\nruler = {}\nwalk_threads = {}\nrecent = [",
       p.windowWidth, p.windowHeight, p.panelWidth, p.ruler, p.walkThreads);
-  for (const std::string& file : p.recent) text += "\n  " + quoted(file) + ",";
+  for (const std::string& file : p.recent) text += "\n  " + tomlString(file) + ",";
   text += "\n]\n";
   try {
     fs::create_directories(path.parent_path());

@@ -1,5 +1,7 @@
 #include "lychnite/base/text.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <numeric>
@@ -56,6 +58,18 @@ std::string nearestName(std::string_view name, std::span<const std::string> cand
     }
   }
   return best;
+}
+
+std::string tomlString(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    if (static_cast<unsigned char>(c) < 0x20)
+      result += fmt::format("\\u{:04x}", int(c));
+    else
+      result += c;
+  }
+  return result + "\"";
 }
 
 }  // namespace lychnite

@@ -37,18 +37,6 @@ std::vector<glm::vec3> gathered(const RayScene& rays, const CameraReceivers& rec
   return values;
 }
 
-std::vector<glm::vec3> singlePart(const RayScene& rays, const CameraReceivers& receivers, uint64_t seed,
-                                  const Progress& progress) {
-  const SingleLight single(rays, receivers);
-  std::vector<glm::vec3> sum(receivers.covered.size(), glm::vec3(0));
-  for (uint64_t pass = 0; pass < kSinglePasses; ++pass) {
-    progress.check({"single scattering", double(pass) / double(kSinglePasses), ""});
-    single.pass(pass, seed, -1, sum);
-  }
-  for (glm::vec3& s : sum) s /= float(kSinglePasses);
-  return sum;
-}
-
 DiffusionSum sumDiffusion(const RayScene& rays, const CameraReceivers& receivers,
                           const RenderSettings& settings, const DiffusionPart& part,
                           const Progress& progress) {
@@ -82,7 +70,8 @@ Image renderDiffusion(const RayScene& rays, const CameraReceivers& receivers, co
   if (settings.components.multiple || (wantsWhole && !apart)) sum = summed(ProfileOrders::kFromSecond);
   if (settings.components.multiple) parts.multiple = gathered(rays, receivers, sum.radiosity, true);
   if (wantsWhole && apart) whole = summed(ProfileOrders::kAll);
-  if (settings.components.single) parts.single = singlePart(rays, receivers, settings.seed, progress);
+  if (settings.components.single)
+    parts.single = singlePart(rays, receivers, kSinglePasses, settings.seed, progress);
   if (settings.components.surface) parts.surface = surfacePart(rays, receivers);
   Image image = assemblePicture(rays, receivers, settings, parts);
   if (settings.wants("radiosity"))

@@ -130,4 +130,16 @@ void SingleLight::pass(uint64_t number, uint64_t seed, int light, std::vector<gl
   });
 }
 
+std::vector<glm::vec3> singlePart(const RayScene& rays, const CameraReceivers& receivers, uint64_t passes,
+                                  uint64_t seed, const Progress& progress) {
+  const SingleLight single(rays, receivers);
+  std::vector<glm::vec3> sum(receivers.covered.size(), glm::vec3(0));
+  for (uint64_t pass = 0; pass < passes; ++pass) {
+    progress.check({"single scattering", double(pass) / double(passes), ""});
+    single.pass(pass, seed, -1, sum);
+  }
+  for (glm::vec3& s : sum) s /= float(passes);
+  return sum;
+}
+
 }  // namespace lychnite

@@ -4,6 +4,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "lychnite/base/progress.h"
 #include "reference/camera_receivers.h"
 #include "reference/transport.h"
 
@@ -39,5 +40,9 @@ class SingleLight {
   std::vector<transport::Medium> media_;
   std::vector<EyeRay> eyeRays_;
 };
+
+/// Mean of `passes` passes of SingleLight over all lights, one entry a pixel.
+std::vector<glm::vec3> singlePart(const RayScene& rays, const CameraReceivers& receivers, uint64_t passes,
+                                  uint64_t seed, const Progress& progress);
 
 }  // namespace lychnite

@@ -2,14 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <glm/gtc/quaternion.hpp>
-#include <sstream>
 #include <system_error>
 
 #include "lychnite/base/atomic_file.h"
 #include "lychnite/base/error.h"
 #include "lychnite/base/text.h"
+#include "lychnite/base/text_file.h"
 #include "lychnite/mesh/builtin.h"
 #include "lychnite/mesh/load.h"
 #include "scene/scene_toml.h"
@@ -70,14 +69,9 @@ Scene readScene(const fs::path& path, const LogSink& log) {
   std::error_code code;
   if (fs::is_directory(path, code))
     throw Error({.where = path.string(), .expected = "a scene file", .found = "a folder", .todo = ""});
-  std::ifstream file(path, std::ios::binary);
-  if (!file)
-    throw Error(
-        {.where = path.string(), .expected = "", .found = "cannot be opened", .todo = "check the name"});
-  std::ostringstream text;
-  text << file.rdbuf();
+  const std::string text = readText(path);
   try {
-    return sceneFromToml(text.str(), path, log);
+    return sceneFromToml(text, path, log);
   } catch (const Error& error) {
     // What is wrong usage on a command line is bad input in a file.
     throw Error(error.parts(), Error::Kind::kInput);

@@ -7,6 +7,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "lychnite/base/error.h"
+#include "lychnite/base/text.h"
 #include "lychnite/optics/materials.h"
 #include "lychnite/scene/scene_file.h"
 #include "scene/toml_reader.h"
@@ -122,23 +123,11 @@ std::string lengthsText(const glm::dvec3& v) {
   return fmt::format("[\"{}mm\", \"{}mm\", \"{}mm\"]", v.x, v.y, v.z);
 }
 
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    if (static_cast<unsigned char>(c) < 0x20)
-      result += fmt::format("\\u{:04x}", int(c));
-    else
-      result += c;
-  }
-  return result + "\"";
-}
-
 /// The library's name where it says everything, the coefficients otherwise.
 std::string mediumText(const Material& material) {
   for (const NamedCoefficients& known : materialLibrary())
     if (known.name == material.name && known.coefficients == material.medium)
-      return fmt::format("name = {}\n", quoted(material.name));
+      return fmt::format("name = {}\n", tomlString(material.name));
   const Coefficients& medium = material.medium;
   return fmt::format("name = \"custom\"\nsigma_s = {}  # 1/mm\nsigma_a = {}\ng = {}\neta = {}\n",
                      numbersText(medium.sigma_s), numbersText(medium.sigma_a), medium.g, medium.eta);
@@ -146,8 +135,8 @@ std::string mediumText(const Material& material) {
 
 std::string objectText(const Object& object) {
   std::string text = "\n[[object]]\n";
-  if (!object.name.empty()) text += fmt::format("name = {}\n", quoted(object.name));
-  text += fmt::format("model = {}\nsize = \"{}mm\"\n", quoted(object.model), object.size);
+  if (!object.name.empty()) text += fmt::format("name = {}\n", tomlString(object.name));
+  text += fmt::format("model = {}\nsize = \"{}mm\"\n", tomlString(object.model), object.size);
   if (object.position != glm::dvec3(0)) text += fmt::format("position = {}\n", lengthsText(object.position));
   const glm::dquat& q = object.rotation;
   if (q != glm::dquat(1, 0, 0, 0))

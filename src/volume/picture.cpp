@@ -93,18 +93,6 @@ std::vector<PixelLight> lightPixels(const RayScene& rays, const World& world, co
   return result;
 }
 
-std::vector<glm::vec3> singlePart(const RayScene& rays, const CameraReceivers& receivers, uint64_t seed,
-                                  const Progress& progress) {
-  const SingleLight single(rays, receivers);
-  std::vector<glm::vec3> sum(receivers.covered.size(), glm::vec3(0));
-  for (uint64_t pass = 0; pass < kSinglePasses; ++pass) {
-    progress.check({"single scattering", double(pass) / double(kSinglePasses), ""});
-    single.pass(pass, seed, -1, sum);
-  }
-  for (glm::vec3& s : sum) s /= float(kSinglePasses);
-  return sum;
-}
-
 }  // namespace
 
 Image volumePicture(const RayScene& rays, const World& world, const NodeLight& light,
@@ -122,7 +110,8 @@ Image volumePicture(const RayScene& rays, const World& world, const NodeLight& l
     }
     if (!settings.components.multiple) parts.multiple.clear();
   }
-  if (settings.components.single) parts.single = singlePart(rays, receivers, settings.seed, progress);
+  if (settings.components.single)
+    parts.single = singlePart(rays, receivers, kSinglePasses, settings.seed, progress);
   if (settings.components.surface) parts.surface = surfacePart(rays, receivers);
   Image image = assemblePicture(rays, receivers, settings, parts);
   if (settings.wants("radiosity")) addLayer(image, "radiosity", radiosity);

@@ -14,4 +14,7 @@ std::vector<std::string> split(std::string_view text, char separator);
 /// meant.
 std::string nearestName(std::string_view name, std::span<const std::string> candidates);
 
+/// `text` as a basic string of TOML, in quotes.
+std::string tomlString(std::string_view text);
+
 }  // namespace lychnite

@@ -31,5 +31,10 @@ TEST(NearestName, StaysSilentWhenNothingIsNear) {
   EXPECT_EQ(nearestName("marble", std::vector<std::string>{}), "");
 }
 
+TEST(TomlString, EscapesWhatTomlWould) {
+  EXPECT_EQ(tomlString("a \"b\" \\ c"), "\"a \\\"b\\\" \\\\ c\"");
+  EXPECT_EQ(tomlString("x\ny"), "\"x\\u000ay\"");
+}
+
 }  // namespace
 }  // namespace lychnite
