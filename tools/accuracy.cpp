@@ -37,7 +37,7 @@ constexpr const char* kModels[] = {"sphere", "figurine", "bunny_filled", "nefert
 constexpr ParallelLight kLight{.azimuth = 150, .elevation = 20};
 constexpr int kResolution = 80;
 constexpr double kMostError = 0.1;  // standard error of a relative RMSE that joins the means
-constexpr double kSecondsOfAHalf = 6, kNoiseOfAHalf = 0.06;  // whichever comes first
+constexpr double kSecondsOfAHalf = 12, kNoiseOfAHalf = 0.06;  // whichever comes first
 
 /// A method under test, and what it is held against: a whole radiosity, or the radiance of orders two and up.
 struct Column {

@@ -1,5 +1,8 @@
 #include "lychnite/mesh/load.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -35,14 +38,15 @@ const Format& formatOf(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   for (char& c : extension)
     if (c >= 'A' && c <= 'Z') c += 'a' - 'A';
-  std::string known;
+  std::vector<std::string_view> known;
   for (const Format& format : kFormats) {
     if (format.extension == extension) return format;
-    known += (known.empty() ? "" : " ") + std::string(format.extension);
+    known.push_back(format.extension);
   }
   throw Error({.where = path.string(),
-               .expected = "a mesh file (" + known + ")",
-               .found = extension.empty() ? "no extension" : "the extension '" + extension + "'",
+               .expected = fmt::format("a mesh file ({})", fmt::join(known, " ")),
+               .found = extension.empty() ? std::string("no extension")
+                                          : fmt::format("the extension '{}'", extension),
                .todo = "convert the model to one of them"});
 }
 
