@@ -44,11 +44,16 @@ glm::dvec2 Player::find(const ScriptPlace& place, const Ui& ui, int line) const 
 }
 
 void Player::pointAt(const glm::dvec2& place) {
-  frames_.push_back({{.kind = EventKind::kMove, .at = place}});
+  InputEvent move{.kind = EventKind::kMove};
+  move.at = place;
+  frames_.push_back({move});
 }
 
 void Player::button(int which, bool down) {
-  frames_.push_back({{.kind = EventKind::kButton, .button = which, .down = down}});
+  InputEvent change{.kind = EventKind::kButton};
+  change.button = which;
+  change.down = down;
+  frames_.push_back({change});
 }
 
 void Player::key(const KeyChord& chord) {
@@ -64,8 +69,11 @@ void Player::key(const KeyChord& chord) {
 
 void Player::type(const std::string& text) {
   Events events;
-  for (const unsigned point : codePoints(text))
-    events.push_back({.kind = EventKind::kText, .codePoint = point});
+  for (const unsigned point : codePoints(text)) {
+    InputEvent letter{.kind = EventKind::kText};
+    letter.codePoint = point;
+    events.push_back(letter);
+  }
   frames_.push_back(events);
   frames_.push_back({});
 }
@@ -97,18 +105,24 @@ void Player::begin(const ScriptStep& step, Window& window, const Ui& ui) {
       frames_.push_back({});
       break;
     }
-    case Kind::kScroll:
-      frames_.push_back({{.kind = EventKind::kScroll, .notches = step.number}});
+    case Kind::kScroll: {
+      InputEvent turn{.kind = EventKind::kScroll};
+      turn.notches = step.number;
+      frames_.push_back({turn});
       break;
+    }
     case Kind::kKey:
       key(step.chord);
       break;
     case Kind::kType:
       type(step.text);
       break;
-    case Kind::kDrop:
-      frames_.push_back({{.kind = EventKind::kDrop, .files = step.texts}});
+    case Kind::kDrop: {
+      InputEvent drop{.kind = EventKind::kDrop};
+      drop.files = step.texts;
+      frames_.push_back({drop});
       break;
+    }
     case Kind::kResize:
       window.resize(glm::ivec2(step.to.at));
       frames_.assign(3, {});
