@@ -14,6 +14,7 @@ void addView(CLI::App& app, Action& action);
 void addCompare(CLI::App& app, Action& action);
 void addSlab(CLI::App& app, Action& action);
 void addBench(CLI::App& app, Action& action);
+void addPaper(CLI::App& app, Action& action);
 void addInfo(CLI::App& app, Action& action);
 void addMaterials(CLI::App& app, Action& action);
 void addModels(CLI::App& app, Action& action);

@@ -82,6 +82,7 @@ int run(int argc, char** argv) {
   addCompare(app, action);
   addSlab(app, action);
   addBench(app, action);
+  addPaper(app, action);
   addInfo(app, action);
   addMaterials(app, action);
   addModels(app, action);
