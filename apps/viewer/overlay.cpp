@@ -91,7 +91,11 @@ void drawWipe(PanelContext& context, ImDrawList& draw, const Area& area) {
   const CompareView& compare = context.session.state().compare;
   const float s = float(context.ui.scale());
   const double x = area.low.x + compare.wipe * area.size().x;
-  const std::string left = kNames[int(compare.left)], right = kNames[int(compare.right)];
+  const auto name = [&](CompareView::Source source) {
+    const std::string how = context.view.labelOf(source);
+    return kNames[int(source)] + (how.empty() ? "" : ": " + how);
+  };
+  const std::string left = name(compare.left), right = name(compare.right);
   if (compare.mode == CompareView::Mode::kDifference) {
     text(draw, area.low + glm::dvec2(12 * s, 10 * s), kInk,
          fmt::format("|{} - {}| over the mean of the right, 0 to {:.0f} %", left, right, 100 * compare.full));
@@ -180,7 +184,11 @@ void drawOverlay(PanelContext& context, const Area& area, const std::vector<Sess
   if (!context.session.empty() && context.session.state().inspect.layer == Inspect::Layer::kPicture) {
     const ViewState& state = context.session.state();
     if (state.ruler && state.compare.mode != CompareView::Mode::kDifference) drawRuler(context, draw, area);
-    if (state.compare.mode != CompareView::Mode::kOff) drawWipe(context, draw, area);
+    if (state.compare.mode != CompareView::Mode::kOff)
+      drawWipe(context, draw, area);
+    else
+      text(draw, area.low + glm::dvec2(12 * s, 10 * s), kFaint,
+           context.view.labelOf(CompareView::Source::kView));
     if (context.controls.turnsLight) drawLight(context, draw, area);
   }
   if (context.session.empty())

@@ -10,8 +10,9 @@
 namespace lychnite::viewer {
 namespace {
 
-const std::vector<Method>& realTimeMethods() {
-  static const std::vector<Method> methods{Method::kMatched, Method::kAdaptive, Method::kFixed};
+const std::vector<Method>& liveMethods() {
+  static const std::vector<Method> methods{Method::kMatched, Method::kAdaptive, Method::kFixed,
+                                           Method::kVolume};
   return methods;
 }
 
@@ -29,7 +30,7 @@ int indexOf(const std::vector<T>& list, const T& value) {
 
 std::vector<std::string> methodNames() {
   std::vector<std::string> names;
-  for (const Method method : realTimeMethods()) names.push_back(methodName(method));
+  for (const Method method : liveMethods()) names.push_back(methodName(method));
   return names;
 }
 
@@ -37,6 +38,16 @@ std::vector<std::string> profileNames() {
   std::vector<std::string> names;
   for (const ProfileKind kind : profiles()) names.push_back(profileName(kind));
   return names;
+}
+
+void chooseProfile(Ui& ui, ProfileKind& profile) {
+  int index = indexOf(profiles(), profile);
+  if (ui.choice(
+          "Profile",
+          "How light spreads from where it enters: the dipole of Jensen et al. 2001, d'Eon's better dipole "
+          "2012, Christensen & Burley's normalized diffusion 2015, or one measured by Monte Carlo.",
+          index, profileNames()))
+    profile = profiles()[size_t(index)];
 }
 
 void chooseMap(Ui& ui, int& mapSize) {
@@ -83,8 +94,8 @@ void drawVariant(PanelContext& context) {
   Ui& ui = context.ui;
   ui.note("What the variant does differently:");
   if (own(ui, "another method", "", variant.method, Method::kAdaptive)) {
-    int index = indexOf(realTimeMethods(), *variant.method);
-    if (ui.choice("Its method", "", index, methodNames())) variant.method = realTimeMethods()[size_t(index)];
+    int index = indexOf(liveMethods(), *variant.method);
+    if (ui.choice("Its method", "", index, methodNames())) variant.method = liveMethods()[size_t(index)];
   }
   if (own(ui, "other samples", "", variant.samples, 128))
     ui.slider("Its samples", "", *variant.samples, 8, 128);
@@ -142,22 +153,23 @@ void drawNumbers(PanelContext& context) {
 void drawMethodSection(PanelContext& context) {
   RenderSettings& settings = context.session.state().settings;
   Ui& ui = context.ui;
-  int method = indexOf(realTimeMethods(), settings.method);
+  int method = indexOf(liveMethods(), settings.method);
   if (ui.choice(
           "Method",
           "matched: ours, samples follow the profile at the object's size. adaptive: Yao & Wang 2009. fixed: "
-          "its fixed pattern.",
+          "its fixed pattern. volume: photons and diffusion inside the object, solved on the processor while "
+          "the picture rests, with no half-space assumption; matched stands in until then.",
           method, methodNames()))
-    settings.method = realTimeMethods()[size_t(method)];
-  int profile = indexOf(profiles(), settings.profile);
-  if (ui.choice(
-          "Profile",
-          "How light spreads from where it enters: the dipole of Jensen et al. 2001, d'Eon's better dipole "
-          "2012, Christensen & Burley's normalized diffusion 2015, or one measured by Monte Carlo.",
-          profile, profileNames()))
-    settings.profile = profiles()[size_t(profile)];
+    settings.method = liveMethods()[size_t(method)];
+  if (settings.method != Method::kVolume) chooseProfile(ui, settings.profile);
   if (settings.method == Method::kMatched)
     ui.slider("Samples", "Of multiple scattering at each pixel.", settings.multipleSamples, 8, 128);
+  if (settings.method == Method::kVolume) {
+    ui.slider("Cells", "Of the diffusion equation, along the object's longest side.", settings.cells, 16,
+              128);
+    ui.slider("Collisions", "Of each photon, traced before the diffusion equation takes over.",
+              settings.collisions, 1, 24);
+  }
   ui.slider("Along the ray", "Samples of single scattering along the refracted eye ray.",
             settings.singleSamples, 1, 64);
   chooseMap(ui, settings.mapSize);

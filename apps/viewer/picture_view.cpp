@@ -60,9 +60,16 @@ bool LivePicture::update(const ViewState& state, glm::ivec2 pixels, double scale
   std::string key = pictureKey(state, pixels);
   const double wanted = rest ? 1 : scale;
   const bool changed = key != key_;
+  if (changed) {
+    volumeTexture_.reset();
+    volumeImage_.reset();
+    passes_ = 0;
+  }
+  updateVolume(state, pixels, rest);
   if (!changed && drawn_ && drawnScale_ >= wanted) return false;
   prepare();
   RenderSettings settings = state.settings;
+  if (settings.method == Method::kVolume) settings.method = Method::kMatched;
   settings.aovs.clear();
   settings.width = std::max(1, int(std::lround(pixels.x * wanted)));
   settings.height = std::max(1, int(std::lround(pixels.y * wanted)));
@@ -80,8 +87,51 @@ bool LivePicture::update(const ViewState& state, glm::ivec2 pixels, double scale
   return true;
 }
 
+/// Solves while the picture rests, so that frames have the processor while it moves.
+void LivePicture::updateVolume(const ViewState& state, glm::ivec2 pixels, bool rest) {
+  wantsVolume_ = state.settings.method == Method::kVolume;
+  solving_ = wantsVolume_;
+  if (!wantsVolume_ || !rest) {
+    if (volume_) volume_->stop();
+    return;
+  }
+  if (!volume_) volume_ = std::make_unique<BackgroundVolume>(volumeOptions_);
+  RenderSettings settings = state.settings;
+  settings.width = pixels.x;
+  settings.height = pixels.y;
+  volume_->want(state.scene, settings);
+  const auto newest = volume_->newest();
+  std::string obstacle = newest ? newest->obstacle : volume_->problem();
+  solving_ = !newest && obstacle.empty();
+  if (!solving_ && obstacle != std::exchange(obstacle_, obstacle) && !obstacle.empty())
+    problem_ = "volume: " + obstacle + "; shown by matched instead";
+  if (!newest || !newest->image || newest->image == volumeImage_) return;
+  volumeImage_ = newest->image;
+  volumeTexture_ = uploaded(*volumeImage_, "volume");
+  passes_ = newest->passes;
+}
+
 const gpu::Texture& LivePicture::texture() const {
-  return RendererTextures::picture(*renderer_);
+  return volumeTexture_ ? *volumeTexture_ : RendererTextures::picture(*renderer_);
+}
+
+std::string LivePicture::label() const {
+  if (!wantsVolume_) return "";
+  if (volumeTexture_) return fmt::format("volume, pass {}", passes_);
+  return solving_ ? "matched, until volume is solved" : "matched, because volume cannot be solved";
+}
+
+std::string LivePicture::key() const {
+  return fmt::format("{} {}", key_, fmt::ptr(volumeImage_.get()));
+}
+
+void LivePicture::forget() {
+  renderer_.reset();
+  volumeTexture_.reset();
+  volumeImage_.reset();
+  key_.clear();
+  drawn_ = false;
+  drawnScale_ = 0;
 }
 
 void Pace::measured(double ms, double idleMs) {
@@ -96,8 +146,8 @@ void Pace::measured(double ms, double idleMs) {
 }
 
 PictureView::PictureView(const RendererOptions& options, const BackgroundWalk::Options& walk)
-    : live_(options),
-      variant_(options),
+    : live_(options, {.threads = walk.threads, .yields = walk.yields}),
+      variant_(options, {.threads = walk.threads, .yields = walk.yields}),
       pace_(gpu::Context({.current = true}).device().software),
       walk_(walk),
       idleMs_(kMillisecondsIdle) {
@@ -125,7 +175,8 @@ void PictureView::update(const Request& request) {
   updateWalk(request);
   updateFile(request);
   settled_ = rest && whole && !drew_;
-  atRest_ = settled_ && (!compares(Source::kTruth) || walkTexture_ || !walk_.problem().empty());
+  atRest_ = settled_ && live_.complete() && (!compares(Source::kVariant) || variant_.complete()) &&
+            (!compares(Source::kTruth) || walkTexture_ || !walk_.problem().empty());
   updateError(request);
   if (measuring_.valid()) atRest_ = false;
 }
@@ -178,6 +229,11 @@ const gpu::Texture* PictureView::textureOf(Source source) const {
   return nullptr;
 }
 
+std::string PictureView::labelOf(Source source) const {
+  if (source == Source::kView) return live_.label();
+  return source == Source::kVariant && compares(source) ? variant_.label() : "";
+}
+
 std::string PictureView::keyOf(Source source) const {
   if (source == Source::kView) return live_.key();
   if (source == Source::kVariant) return variant_.key();
@@ -187,6 +243,7 @@ std::string PictureView::keyOf(Source source) const {
 std::shared_ptr<const Image> PictureView::imageOf(Source source) const {
   if (source == Source::kTruth) return walkImage_;
   if (source == Source::kFile) return fileImage_;
+  if (const auto& ready = (source == Source::kView ? live_ : variant_).image()) return ready;
   const gpu::Texture& texture = *textureOf(source);
   auto image = std::make_shared<Image>(texture.width(), texture.height());
   readPicture(texture, *image);

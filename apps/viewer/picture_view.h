@@ -15,10 +15,12 @@
 
 namespace lychnite::viewer {
 
-/// One picture of the real-time renderer that follows its scene: coarse while things move, whole at rest.
+/// One picture that follows its scene: coarse while things move, whole at rest. `volume` is solved behind it,
+/// and `matched` stands in until it is there.
 class LivePicture {
  public:
-  explicit LivePicture(const RendererOptions& options) : options_(options) {}
+  LivePicture(const RendererOptions& options, const BackgroundVolume::Options& volume)
+      : options_(options), volumeOptions_(volume) {}
 
   /// Draws what changed; `rest` asks for the full resolution. True when something was drawn.
   bool update(const ViewState& state, glm::ivec2 pixels, double scale, bool rest);
@@ -26,22 +28,35 @@ class LivePicture {
   void prepare() {
     if (!renderer_) renderer_ = std::make_unique<Renderer>(options_);
   }
-  void forget() { *this = LivePicture(options_); }
+  void forget();
   bool ready() const { return drawn_; }
   bool whole() const { return ready() && drawnScale_ >= 1; }
+  /// What is asked for is not a stand-in's picture any more.
+  bool complete() const { return whole() && !solving_; }
   const gpu::Texture& texture() const;
+  /// The same on the processor, where it is there anyway.
+  const std::shared_ptr<const Image>& image() const { return volumeImage_; }
+  /// "volume, pass 3", or what stands in for it; "" for a real-time method.
+  std::string label() const;
   const Renderer& renderer() const { return *renderer_; }
   const RenderStats& stats() const { return renderer_->stats(); }
   /// Why the newest state could not be drawn (once); the picture is then an older one.
   std::string takeProblem() { return std::exchange(problem_, {}); }
   /// Changes with everything that the picture shows.
-  const std::string& key() const { return key_; }
+  std::string key() const;
 
  private:
+  void updateVolume(const ViewState& state, glm::ivec2 pixels, bool rest);
+
   RendererOptions options_;
+  BackgroundVolume::Options volumeOptions_;
   std::unique_ptr<Renderer> renderer_;
-  std::string key_, problem_;
-  bool drawn_ = false;
+  std::unique_ptr<BackgroundVolume> volume_;
+  std::optional<gpu::Texture> volumeTexture_;
+  std::shared_ptr<const Image> volumeImage_;
+  int passes_ = 0;
+  std::string key_, problem_, obstacle_;
+  bool drawn_ = false, solving_ = false, wantsVolume_ = false;
   double drawnScale_ = 0;
 };
 
@@ -78,8 +93,12 @@ class PictureView {
   bool ready() const { return live_.ready(); }
   /// All that is asked for is there at full resolution (the walk: a first picture of it).
   bool atRest() const { return atRest_; }
+  /// How the picture of a side is being made, "" when there is nothing to say.
+  std::string labelOf(CompareView::Source source) const;
   /// The real-time pictures are there at full resolution; what is left goes on in the background.
   bool settled() const { return settled_; }
+  /// A solver makes the picture better and better.
+  bool refines() const { return !live_.label().empty() || !variant_.label().empty(); }
   /// The last update() drew; and how long its frame took, for the pace of the next ones.
   bool drew() const { return drew_; }
   void frameTook(double ms);

@@ -204,8 +204,8 @@ bool Viewer::quick() const {
 /// Something behind the window goes on, which is worth a look now and then.
 bool Viewer::slow() const {
   const bool compares = session_.state().compare.mode != CompareView::Mode::kOff;
-  return compares || !view_.atRest() || !shown_.empty() || session_.pictures().busy() || session_.loading() ||
-         profiles_.busy();
+  return compares || view_.refines() || !view_.atRest() || !shown_.empty() || session_.pictures().busy() ||
+         session_.loading() || profiles_.busy();
 }
 
 void Viewer::run() {

@@ -1,12 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <cstdlib>
-#include <mutex>
-#include <thread>
 
 #ifdef __linux__
 #include <sys/resource.h>
@@ -14,6 +10,7 @@
 #include <unistd.h>
 #endif
 
+#include "app/refiner.h"
 #include "lychnite/app/background.h"
 #include "lychnite/reference/reference.h"
 #include "lychnite/scene/scene_file.h"
@@ -27,143 +24,85 @@ void lowerThreadPriority() {
 #endif
 }
 
+int backgroundThreads(int wanted) {
+  return wanted > 0 ? wanted : std::max(1, int(std::thread::hardware_concurrency()) / 2);
+}
+
+RefinerJob makeJob(const Scene& scene, const RenderSettings& s) {
+  std::string key = sceneToToml(scene) + fmt::format("{}x{} {} {} {} {} {} {}", s.width, s.height, s.seed,
+                                                     componentsName(s.components), methodName(s.method),
+                                                     profileName(s.profile), s.cells, s.collisions);
+  for (const Object& object : scene.objects) key += fmt::format(" {}", fmt::ptr(object.mesh.get()));
+  return {scene, s, std::move(key)};
+}
+
 namespace {
 
 constexpr double kFirstSamples = 0.125;  // photons a pixel of the first picture; every round doubles them,
 constexpr double kMostNewSamples = 4;    // up to so many more
-
-int defaultThreads() {
-  const int cores = int(std::thread::hardware_concurrency());
-  return std::max(1, cores / 2);
-}
-
-std::string keyOf(const Scene& scene, const RenderSettings& s) {
-  std::string key = sceneToToml(scene) +
-                    fmt::format("{}x{} {} {}", s.width, s.height, s.seed, componentsName(s.components));
-  for (const Object& object : scene.objects) key += fmt::format(" {}", fmt::ptr(object.mesh.get()));
-  return key;
-}
 
 double number(const Image& image, const char* name) {
   const auto found = image.metadata.find(name);
   return found == image.metadata.end() ? 0 : std::strtod(found->second.c_str(), nullptr);
 }
 
-}  // namespace
-
-struct BackgroundWalk::Impl {
-  struct Job {
-    Scene scene;
-    RenderSettings settings;
-    std::string key;
-  };
-
-  void work(const std::stop_token& stop);
-  void refine(const Job& job, uint64_t version);
-
-  int threads = 1;
-  double enough = 0;
-  bool yields = true;
-  mutable std::mutex mutex;
-  std::condition_variable_any wake;
-  std::optional<Job> wanted;
-  std::optional<Result> result;
-  std::string problem;
-  std::atomic<uint64_t> version{0};
-  std::jthread thread;  // last: it uses the members above
-};
-
-void BackgroundWalk::Impl::work(const std::stop_token& stop) {
-  if (yields) lowerThreadPriority();
-  uint64_t done = 0;
-  while (true) {
-    Job job;
-    {
-      std::unique_lock lock(mutex);
-      if (!wake.wait(lock, stop, [&] { return version != done; })) return;
-      done = version;
-      if (!wanted) continue;
-      job = *wanted;
-    }
-    try {
-      refine(job, done);
-    } catch (const std::exception& error) {
-      const std::lock_guard lock(mutex);
-      if (version == done) problem = error.what();
-    }
-  }
-}
+using WalkRefiner = Refiner<BackgroundWalk::Result>;
 
 /// Rounds of growing length, each of which goes on from the one before. By photons and not by time, because
 /// a busy machine may leave a thread of low priority none.
-void BackgroundWalk::Impl::refine(const Job& job, uint64_t mine) {
+void refineWalk(const RefinerJob& job, const WalkRefiner::Ticket& ticket, double enough) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   RenderSettings settings = job.settings;
-  settings.method = Method::kWalk;
-  settings.aovs = {"stderr"};
-  settings.threads = threads;
-  settings.noise = 0;
   std::shared_ptr<const Image> last;
-  const Progress progress([&](const Progress::Update&) { return version == mine; });
+  const Progress progress([&](const Progress::Update&) { return ticket.valid(); });
   for (double samples = kFirstSamples;; samples += std::min(samples, kMostNewSamples)) {
     settings.samples = samples;
     const ReferenceOptions options{.resume = last.get(), .keepState = true};
-    auto image = std::make_shared<const Image>(renderReference(job.scene, settings, progress, {}, options));
-    if (version != mine) return;
-    last = image;
+    last = std::make_shared<const Image>(renderReference(job.scene, settings, progress, {}, options));
     const std::chrono::duration<double> spent = Clock::now() - start;
-    const Result now{image, number(*image, "noise"), spent.count(), number(*image, "photons_per_pixel")};
-    const std::lock_guard lock(mutex);
-    if (version != mine) return;
-    result = now;
-    if (now.noise <= enough) return;
+    const BackgroundWalk::Result now{last, number(*last, "noise"), spent.count(),
+                                     number(*last, "photons_per_pixel")};
+    if (!ticket.publish(now) || now.noise <= enough) return;
   }
 }
 
-BackgroundWalk::BackgroundWalk(const Options& options) : impl_(std::make_unique<Impl>()) {
-  impl_->threads = options.threads > 0 ? options.threads : defaultThreads();
-  impl_->enough = options.enough;
-  impl_->yields = options.yields;
-  impl_->thread = std::jthread([impl = impl_.get()](const std::stop_token& token) { impl->work(token); });
-}
+}  // namespace
 
-BackgroundWalk::~BackgroundWalk() {
-  stop();
-  impl_->thread.request_stop();
-}
+struct BackgroundWalk::Impl {
+  explicit Impl(const Options& options)
+      : threads(backgroundThreads(options.threads)),
+        refiner(
+            [enough = options.enough](const RefinerJob& job, const WalkRefiner::Ticket& ticket) {
+              refineWalk(job, ticket, enough);
+            },
+            options.yields) {}
+  int threads;
+  WalkRefiner refiner;
+};
+
+BackgroundWalk::BackgroundWalk(const Options& options) : impl_(std::make_unique<Impl>(options)) {}
+BackgroundWalk::~BackgroundWalk() = default;
 
 void BackgroundWalk::want(const Scene& scene, const RenderSettings& settings) {
-  std::string key = keyOf(scene, settings);
-  {
-    const std::lock_guard lock(impl_->mutex);
-    if (impl_->wanted && impl_->wanted->key == key) return;
-    impl_->wanted = Impl::Job{scene, settings, std::move(key)};
-    impl_->result.reset();
-    impl_->problem.clear();
-    ++impl_->version;
-  }
-  impl_->wake.notify_all();
+  RenderSettings own = settings;
+  own.method = Method::kWalk;
+  own.aovs = {"stderr"};
+  own.threads = impl_->threads;
+  own.noise = 0;
+  impl_->refiner.want(makeJob(scene, own));
 }
 
 void BackgroundWalk::stop() {
-  const std::lock_guard lock(impl_->mutex);
-  if (!impl_->wanted) return;
-  impl_->wanted.reset();
-  impl_->result.reset();
-  impl_->problem.clear();
-  ++impl_->version;
-  impl_->wake.notify_all();
+  impl_->refiner.stop();
 }
 
 std::optional<BackgroundWalk::Result> BackgroundWalk::newest() const {
-  const std::lock_guard lock(impl_->mutex);
-  return impl_->result;
+  return impl_->refiner.newest();
 }
 
 std::string BackgroundWalk::problem() const {
-  const std::lock_guard lock(impl_->mutex);
-  return impl_->problem;
+  return impl_->refiner.problem();
 }
 
 }  // namespace lychnite

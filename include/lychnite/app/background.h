@@ -17,6 +17,10 @@ namespace lychnite {
 /// effort: nothing where the platform has no such thing.
 void lowerThreadPriority();
 
+/// How many threads work in the background: `wanted`, or for 0 one for up to two cores and half of them for
+/// more.
+int backgroundThreads(int wanted);
+
 /// The walk, refined for as long as its scene stays wanted, on threads of low priority of its own.
 class BackgroundWalk {
  public:
@@ -28,7 +32,7 @@ class BackgroundWalk {
   };
 
   struct Options {
-    int threads = 0;        ///< 0: one for up to two cores, half of them for more
+    int threads = 0;        ///< as backgroundThreads() takes it
     double enough = 0.005;  ///< the noise to stop at
     bool yields = true;     ///< to everything else that wants the processor
   };
@@ -44,6 +48,38 @@ class BackgroundWalk {
   /// The newest picture of what is wanted; empty before the first and after a failure.
   std::optional<Result> newest() const;
   /// Why there is no picture, "" when all is well.
+  std::string problem() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// The light inside by VolumeSolver, pass after pass for as long as its scene stays wanted. The solver is
+/// kept: a camera that moved costs a picture, a light that changed its colour as well. After
+/// RenderSettings::passes passes the picture is the one that ImageMaker renders.
+class BackgroundVolume {
+ public:
+  struct Result {
+    std::shared_ptr<const Image> image;  ///< null where there is an obstacle
+    int passes = 0;                      ///< of photons in it
+    std::string obstacle;                ///< why the scene has no inside to solve in, see VolumeSolver
+  };
+
+  struct Options {
+    int threads = 0;     ///< as backgroundThreads() takes it
+    int passes = 64;     ///< to stop at
+    bool yields = true;  ///< to everything else that wants the processor
+  };
+  explicit BackgroundVolume(const Options& options);
+  ~BackgroundVolume();
+  BackgroundVolume(const BackgroundVolume&) = delete;
+  BackgroundVolume& operator=(const BackgroundVolume&) = delete;
+
+  /// As BackgroundWalk's.
+  void want(const Scene& scene, const RenderSettings& settings);
+  void stop();
+  std::optional<Result> newest() const;
   std::string problem() const;
 
  private:

@@ -11,7 +11,7 @@ namespace lychnite {
 
 /// What differs in the second picture of a comparison; what is empty is as in the first.
 struct Variant {
-  std::optional<Method> method;  ///< a real-time one
+  std::optional<Method> method;  ///< a real-time one or `volume`
   std::optional<int> samples;    ///< of `matched`
   std::optional<ProfileKind> profile;
   std::optional<Material> material;  ///< of the subject

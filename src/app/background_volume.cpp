@@ -1,0 +1,67 @@
+#include <tbb/task_arena.h>
+
+#include "app/refiner.h"
+#include "lychnite/app/background.h"
+#include "lychnite/volume/volume.h"
+
+namespace lychnite {
+
+using VolumeRefiner = Refiner<BackgroundVolume::Result>;
+
+struct BackgroundVolume::Impl {
+  explicit Impl(const Options& options)
+      : arena(backgroundThreads(options.threads)),
+        most(options.passes),
+        refiner([this](const RefinerJob& job,
+                       const VolumeRefiner::Ticket& ticket) { arena.execute([&] { refine(job, ticket); }); },
+                options.yields) {}
+
+  void refine(const RefinerJob& job, const VolumeRefiner::Ticket& ticket);
+
+  tbb::task_arena arena;
+  int most;
+  VolumeSolver solver;    // of the thread alone
+  VolumeRefiner refiner;  // last: its thread uses the members above
+};
+
+/// A solve is never interrupted, so that what it leaves fits one scene and can be gone on from.
+void BackgroundVolume::Impl::refine(const RefinerJob& job, const VolumeRefiner::Ticket& ticket) {
+  const RenderSettings& s = job.settings;
+  if (std::string obstacle = solver.obstacle(job.scene); !obstacle.empty()) {
+    ticket.publish({.image = nullptr, .passes = 0, .obstacle = std::move(obstacle)});
+    return;
+  }
+  solver.update(job.scene, {.cells = s.cells, .collisions = s.collisions, .seed = s.seed});
+  while (ticket.valid()) {
+    const Progress progress([&](const Progress::Update&) { return ticket.valid(); });
+    auto image = std::make_shared<const Image>(solver.picture(s, progress));
+    const int passes = solver.stats().passes;
+    if (!ticket.publish({.image = std::move(image), .passes = passes, .obstacle = ""})) return;
+    if (passes >= most || passes == 0) return;  // 0: there is no light
+    solver.refine();
+  }
+}
+
+BackgroundVolume::BackgroundVolume(const Options& options) : impl_(std::make_unique<Impl>(options)) {}
+BackgroundVolume::~BackgroundVolume() = default;
+
+void BackgroundVolume::want(const Scene& scene, const RenderSettings& settings) {
+  RenderSettings own = settings;
+  own.method = Method::kVolume;
+  own.aovs.clear();
+  impl_->refiner.want(makeJob(scene, own));
+}
+
+void BackgroundVolume::stop() {
+  impl_->refiner.stop();
+}
+
+std::optional<BackgroundVolume::Result> BackgroundVolume::newest() const {
+  return impl_->refiner.newest();
+}
+
+std::string BackgroundVolume::problem() const {
+  return impl_->refiner.problem();
+}
+
+}  // namespace lychnite

@@ -1,0 +1,126 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "lychnite/app/background.h"
+#include "lychnite/scene/scene.h"
+#include "lychnite/scene/settings.h"
+
+namespace lychnite {
+
+/// What a picture made in the background depends on: two jobs are one when these are equal.
+struct RefinerJob {
+  Scene scene;
+  RenderSettings settings;
+  std::string key;
+};
+RefinerJob makeJob(const Scene& scene, const RenderSettings& settings);
+
+/// One thread that works on the newest job it was given and publishes better and better results of it. All
+/// of it may be called from any thread and never waits.
+template <class Result>
+class Refiner {
+ public:
+  /// Whether the job in hand is still the wanted one, and where its results go.
+  class Ticket {
+   public:
+    bool valid() const { return refiner_.version_ == version_; }
+    /// False when nobody wants it any more.
+    bool publish(Result result) const {
+      const std::lock_guard lock(refiner_.mutex_);
+      if (!valid()) return false;
+      refiner_.result_ = std::move(result);
+      return true;
+    }
+
+   private:
+    friend class Refiner;
+    Ticket(Refiner& refiner, uint64_t version) : refiner_(refiner), version_(version) {}
+    Refiner& refiner_;
+    uint64_t version_;
+  };
+  /// Runs on the thread for each job; returns when the job is done or its ticket no longer valid. What it
+  /// throws becomes the problem().
+  using Work = std::function<void(const RefinerJob&, const Ticket&)>;
+
+  Refiner(Work work, bool yields)
+      : work_(std::move(work)),
+        thread_([this, yields](const std::stop_token& token) { run(token, yields); }) {}
+  ~Refiner() {
+    stop();
+    thread_.request_stop();
+  }
+  Refiner(const Refiner&) = delete;
+  Refiner& operator=(const Refiner&) = delete;
+
+  void want(RefinerJob job) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (wanted_ && wanted_->key == job.key) return;
+      wanted_ = std::move(job);
+      forget();
+    }
+    wake_.notify_all();
+  }
+  void stop() {
+    const std::lock_guard lock(mutex_);
+    if (!wanted_) return;
+    wanted_.reset();
+    forget();
+    wake_.notify_all();
+  }
+  std::optional<Result> newest() const {
+    const std::lock_guard lock(mutex_);
+    return result_;
+  }
+  std::string problem() const {
+    const std::lock_guard lock(mutex_);
+    return problem_;
+  }
+
+ private:
+  void forget() {
+    result_.reset();
+    problem_.clear();
+    ++version_;
+  }
+
+  void run(const std::stop_token& stop, bool yields) {
+    if (yields) lowerThreadPriority();
+    uint64_t done = 0;
+    while (true) {
+      RefinerJob job;
+      {
+        std::unique_lock lock(mutex_);
+        if (!wake_.wait(lock, stop, [&] { return version_ != done; })) return;
+        done = version_;
+        if (!wanted_) continue;
+        job = *wanted_;
+      }
+      try {
+        work_(job, Ticket(*this, done));
+      } catch (const std::exception& error) {
+        const std::lock_guard lock(mutex_);
+        if (version_ == done) problem_ = error.what();
+      }
+    }
+  }
+
+  Work work_;
+  mutable std::mutex mutex_;
+  std::condition_variable_any wake_;
+  std::optional<RefinerJob> wanted_;
+  std::optional<Result> result_;
+  std::string problem_;
+  std::atomic<uint64_t> version_{0};
+  std::jthread thread_;  // last: it uses the members above
+};
+
+}  // namespace lychnite

@@ -1,0 +1,80 @@
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "lychnite/app/background.h"
+#include "lychnite/app/view_state.h"
+#include "lychnite/scene/scene_file.h"
+#include "lychnite/volume/volume.h"
+
+namespace lychnite {
+namespace {
+
+Scene glowing(const char* model = "sphere") {
+  return defaultView(loadObject(model)).scene;
+}
+
+RenderSettings small() {
+  return {.width = 12, .height = 12, .method = Method::kVolume, .cells = 12, .collisions = 2, .passes = 2};
+}
+
+BackgroundVolume::Result after(const BackgroundVolume& volume, int passes) {
+  while (volume.problem().empty()) {
+    const auto newest = volume.newest();
+    if (newest && (newest->passes >= passes || !newest->obstacle.empty())) return *newest;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return {};
+}
+
+TEST(BackgroundVolume, ItsLastPassIsThePictureThatRenderMakes) {
+  BackgroundVolume volume({.threads = 1, .passes = 2, .yields = false});
+  EXPECT_FALSE(volume.newest());
+  volume.want(glowing(), small());
+  const auto result = after(volume, 2);
+  ASSERT_TRUE(result.image) << volume.problem();
+  EXPECT_EQ(result.passes, 2);
+  const Image rendered = VolumeSolver().render(glowing(), small());
+  for (const char* channel : {"R", "G", "B", "A"})
+    EXPECT_EQ(result.image->channel(channel), rendered.channel(channel)) << channel;
+}
+
+TEST(BackgroundVolume, ACameraThatMovedKeepsThePasses) {
+  BackgroundVolume volume({.threads = 1, .passes = 3, .yields = false});
+  Scene scene = glowing();
+  volume.want(scene, small());
+  after(volume, 3);
+  std::get<OrbitCamera>(scene.camera).azimuth += 30;
+  volume.want(scene, small());
+  const auto moved = after(volume, 1);
+  ASSERT_TRUE(moved.image) << volume.problem();
+  EXPECT_EQ(moved.passes, 3);
+}
+
+TEST(BackgroundVolume, AnOpenMeshIsAnObstacle) {
+  BackgroundVolume volume({.threads = 1, .yields = false});
+  volume.want(glowing("disc"), small());
+  const auto result = after(volume, 1);
+  EXPECT_FALSE(result.image);
+  EXPECT_NE(result.obstacle.find("open"), std::string::npos) << result.obstacle;
+}
+
+TEST(BackgroundVolume, StopsAtOnce) {
+  BackgroundVolume volume({.threads = 1});
+  volume.want(glowing(), small());
+  volume.stop();
+  EXPECT_FALSE(volume.newest());
+}
+
+TEST(BackgroundVolume, SaysWhatIsWrong) {
+  BackgroundVolume volume({.threads = 1, .yields = false});
+  Scene bad = glowing();
+  bad.objects[0].material.roughness = 7;
+  volume.want(bad, small());
+  after(volume, 1);
+  EXPECT_NE(volume.problem().find("roughness"), std::string::npos) << volume.problem();
+}
+
+}  // namespace
+}  // namespace lychnite
