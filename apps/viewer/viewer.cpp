@@ -232,6 +232,7 @@ void Viewer::run() {
     frameSeconds_ = std::min(seconds_ - before, 0.1);
     if (window_.visible()) frame(events);
   }
+  takeMessages();  // the last ones reach the log
 }
 
 void Viewer::frame(const std::vector<InputEvent>& events) {

@@ -170,6 +170,25 @@ TEST_F(View, TheWalkBecomesAThirdSource) {
   EXPECT_LT(luminance(100), 3 * luminance(60));
 }
 
+/// Opens the section about the picture where a small window shows it, and chooses the method.
+std::string choosing(const std::string& method) {
+  return "wait rest\nclick @section-material\nclick @section-light\nclick @section-picture\nwait 2\n"
+         "click @method\nwait 2\nclick @method-" +
+         method + "\nwait 3\n";
+}
+
+TEST_F(View, VolumeTakesThePlaceOfMatchedWhenItIsSolved) {
+  const Result result = play("stone", "key g\nwait rest\nscreenshot matched.png\n" + choosing("volume") +
+                                          "drag @cells:0.45,0.5 @cells:0,0.5\nwait rest\n"
+                                          "screenshot volume.png\ndrop disc\nwait rest\n");
+  ASSERT_EQ(result.status, 0) << result.err;
+  // Another light inside, but the same object; and an open one has no inside.
+  const double changed = difference(shot("matched.png"), shot("volume.png"), {0.2, 0.2, 0.8, 0.8});
+  EXPECT_GT(changed, 1);
+  EXPECT_LT(changed, 40);
+  EXPECT_NE(result.err.find("shown by matched instead"), std::string::npos) << result.err;
+}
+
 TEST_F(View, LightsCameraAndKeysMoveThePicture) {
   const Result result =
       play("stone",
