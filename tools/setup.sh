@@ -8,7 +8,7 @@ build_packages=(
   libfmt-dev libglm-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libstb-dev fonts-dejavu-core
   libopenexr-dev libimath-dev libpng-dev zlib1g-dev libembree-dev libtbb-dev
   libepoxy-dev libegl-dev libegl1 libgl1 libgl1-mesa-dri
-  libglfw3-dev libimgui-dev
+  libglfw3-dev libimgui-dev libcairo2-dev
 )
 test_packages=(libgtest-dev libgmock-dev xvfb)
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "lychnite/base/text.h"
+
 namespace lychnite::paper {
 namespace {
 
@@ -64,7 +66,21 @@ std::string escaped(std::string_view text) {
   return result;
 }
 
+/// Escaped, with what stands between backquotes as code.
+std::string prose(std::string_view text) {
+  std::string result;
+  bool code = false;
+  for (const std::string& part : split(text, '`')) {
+    result += code ? "<code>" + escaped(part) + "</code>" : escaped(part);
+    code = !code;
+  }
+  return result;
+}
+
 std::string cellHtml(const Picture& picture, const std::string& folder) {
+  if (picture.file.empty())
+    return fmt::format("<div class=\"cell\"><div class=\"label detail\">{}</div></div>\n",
+                       escaped(picture.detail));
   const std::string file = escaped(folder + "/" + picture.file);
   const std::string alt = escaped(picture.label.empty() ? picture.file : picture.label);
   std::string text =
@@ -87,30 +103,38 @@ std::string galleryHtml(const Gallery& gallery, const std::string& folder) {
       gallery.columns);
   for (const Picture& picture : gallery.pictures) text += cellHtml(picture, folder);
   text += "</div>\n";
-  if (!gallery.caption.empty()) text += fmt::format("<figcaption>{}</figcaption>", escaped(gallery.caption));
+  if (!gallery.caption.empty()) text += fmt::format("<figcaption>{}</figcaption>", prose(gallery.caption));
   return text + "</figure>\n";
 }
 
 /// True for a column that holds words only.
 bool isText(const Table& table, size_t column) {
   for (const std::vector<Cell>& row : table.rows)
-    if (std::holds_alternative<double>(row[column])) return false;
+    if (row[column].number) return false;
   return true;
+}
+
+/// True when rows of the same first cell follow each other.
+bool hasGroups(const Table& table) {
+  for (size_t r = 1; r < table.rows.size(); ++r)
+    if (table.rows[r][0] == table.rows[r - 1][0]) return true;
+  return false;
 }
 
 std::string tableHtml(const Table& table, const std::string& folder) {
   std::string text = "<figure><div class=\"scroll\"><table><thead><tr>";
   std::vector<const char*> kinds;
+  const bool groups = hasGroups(table);
   for (size_t i = 0; i < table.columns.size(); ++i) {
     kinds.push_back(isText(table, i) ? " class=\"text\"" : "");
     text += fmt::format("<th{}>{}</th>", kinds[i], escaped(table.columns[i].name));
   }
   text += "</tr></thead><tbody>\n";
   for (size_t r = 0; r < table.rows.size(); ++r) {
-    const bool begins = r > 0 && table.rows[r][0] != table.rows[r - 1][0];
+    const bool begins = groups && r > 0 && table.rows[r][0] != table.rows[r - 1][0];
     text += begins ? "<tr class=\"group\">" : "<tr>";
     for (size_t i = 0; i < table.columns.size(); ++i) {
-      const bool repeats = i == 0 && r > 0 && !begins;
+      const bool repeats = groups && i == 0 && r > 0 && !begins;
       text += fmt::format("<td{}>{}</td>", kinds[i],
                           repeats ? "" : escaped(shown(table.rows[r][i], table.columns[i])));
     }
@@ -134,11 +158,11 @@ std::string sectionHtml(const Report& report) {
     if (const auto* gallery = std::get_if<Gallery>(&block)) text += galleryHtml(*gallery, report.part);
     if (const auto* table = std::get_if<Table>(&block)) text += tableHtml(*table, report.part);
     if (const auto* paragraph = std::get_if<Paragraph>(&block))
-      text += fmt::format("<p>{}</p>\n", escaped(paragraph->text));
+      text += fmt::format("<p>{}</p>\n", prose(paragraph->text));
   }
   if (!report.differs.empty())
     text +=
-        fmt::format("<p class=\"differs\"><b>Other than in the paper.</b> {}</p>\n", escaped(report.differs));
+        fmt::format("<p class=\"differs\"><b>Other than in the paper.</b> {}</p>\n", prose(report.differs));
   return text + fmt::format(
                     "<p class=\"files\">All numbers: <a href=\"{0}/{0}.json\">JSON</a>. Made in "
                     "{1}.</p>\n</section>\n",

@@ -24,6 +24,12 @@ int sizesSteps(const Studio&);
 void makeSizes(Studio&, Report&);  ///< Fig. 1
 int componentsSteps(const Studio&);
 void makeComponents(Studio&, Report&);  ///< Fig. 6
+int figure7Steps(const Studio&);
+void makeFigure7(Studio&, Report&);
+int figure8Steps(const Studio&);
+void makeFigure8(Studio&, Report&);
+int ladderSteps(const Studio&);
+void makeLadder(Studio&, Report&);  ///< sizes in a strip, error against size
 int storageSteps(const Studio&);
 void makeStorage(Studio&, Report&);  ///< bytes of map per method
 

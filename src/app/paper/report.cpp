@@ -8,13 +8,12 @@ namespace lychnite::paper {
 namespace {
 
 Json cellJson(const Cell& cell) {
-  if (const auto* text = std::get_if<std::string>(&cell)) return text->empty() ? Json(nullptr) : Json(*text);
-  const double value = std::get<double>(cell);
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
+  if (cell.number) return std::isfinite(*cell.number) ? Json(*cell.number) : Json(nullptr);
+  return cell.text.empty() ? Json(nullptr) : Json(cell.text);
 }
 
 Cell cellFrom(const Json& json) {
-  if (json.is_null()) return std::string();
+  if (json.is_null()) return "";
   if (json.is_string()) return json.get<std::string>();
   return json.get<double>();
 }
@@ -69,9 +68,8 @@ Block blockFrom(const Json& json) {
 }
 
 std::string csvCell(const Cell& cell) {
-  if (const auto* value = std::get_if<double>(&cell))
-    return std::isfinite(*value) ? fmt::format("{}", *value) : "";
-  const std::string& text = std::get<std::string>(cell);
+  if (cell.number) return std::isfinite(*cell.number) ? fmt::format("{}", *cell.number) : "";
+  const std::string& text = cell.text;
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
@@ -111,8 +109,8 @@ std::string csvOf(const Table& table) {
 }
 
 std::string shown(const Cell& cell, const Column& column) {
-  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
-  const double value = std::get<double>(cell) * column.factor;
+  if (!cell.number) return cell.text;
+  const double value = *cell.number * column.factor;
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, column.digits) : "";
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -10,7 +11,14 @@ namespace lychnite::paper {
 using Json = nlohmann::ordered_json;
 
 /// A text, a number, or nothing (an empty text).
-using Cell = std::variant<std::string, double>;
+struct Cell {
+  Cell(std::string words) : text(std::move(words)) {}  // NOLINT
+  Cell(const char* words) : text(words) {}             // NOLINT
+  Cell(double value) : number(value) {}                // NOLINT
+  std::string text;
+  std::optional<double> number;
+  bool operator==(const Cell&) const = default;
+};
 
 struct Column {
   std::string name;   ///< as shown
