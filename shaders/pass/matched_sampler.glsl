@@ -114,20 +114,81 @@ vec3 cellKernel(float a, float b, float q, float start, float height, float wind
   return kernelMean(min(a2, b2), max(a2, b2));
 }
 
-void addCell(inout Sum sum, Ground g, vec2 uv, float area, float a, float b, float q, int index) {
-  float level = max(0.0, 0.5 * log2(area) - log2(g.texel) - 1.0);
-  vec4 t = textureLod(moments, uv, level);
+// The receiver's spiral: it fills the object's circle, which lies off the receiver by e0.
+struct Spiral {
+  float d;         // least distance of lit surface, which may be nearer than straight above
+  float g0;        // radial share inside d
+  float e0;        // receiver to the circle's centre
+  float rc;        // radius of the circle
+  float farthest;
+  vec2 inwards;    // unit, towards the circle's centre
+  float inwardsTurn;
+  float e;         // eccentricity of the azimuths
+};
+
+Spiral spiralOf(Ground g) {
+  Spiral s;
+  s.d = min(0.2 * max(g.depth, 0.0), 0.5 * spiralScale);
+  s.g0 = radialShare(s.d, spiralScale);
+  s.rc = 1.05 * boundRadius + g.texel;
+  s.e0 = min(length(g.p), 0.999 * s.rc);
+  s.inwards = s.e0 > 1e-6 ? -g.p / length(g.p) : vec2(1.0, 0.0);
+  s.farthest = length(vec2(reach, s.d));
+  float farShare = radialShare(min(length(vec2(s.rc + s.e0, s.d)), s.farthest), spiralScale) - s.g0;
+  float nearShare = radialShare(min(length(vec2(s.rc - s.e0, s.d)), s.farthest), spiralScale) - s.g0;
+  s.e = 0.9 * (farShare - nearShare) / max(1e-9, farShare + nearShare);
+  // The golden angle's turns are the map's own, not counted from `inwards`: the pattern would spin where the receiver
+  // crosses the axis.
+  s.inwardsTurn = atan(s.inwards.y, s.inwards.x) / 6.283185307179586;
+  return s;
+}
+
+// One sample: a piece of the ring from a to b around the receiver's projection.
+struct Cell {
+  vec2 uv;
+  float a, q, b;   // radii: inner, of the sample, outer
+  float area;      // scene units, across the light
+};
+
+Cell cellOf(Ground g, Spiral s, int index) {
+  float i = float(index);
+  vec2 table = vec2(textureSize(azimuths, 0));
+  float row = (s.e / 0.9 * (table.y - 1.0) + 0.5) / table.y;
+  float turn = fract(0.6180339887498949 * i - s.inwardsTurn);
+  vec2 phi = textureLod(azimuths, vec2((turn * (table.x - 1.0) + 0.5) / table.x, row), 0.0).xy;
+  float edge = min(length(vec2(distanceToCircle(s.e0, s.rc, phi.x, phi.y), s.d)), s.farthest);
+  float share = radialShare(edge, spiralScale) - s.g0;
+  vec3 at = vec3(i, i + 0.5, i + 1.0) * (1.0 / float(sampleCount) * share) + s.g0;
+  float ra = radiusOfShare(at.x, spiralScale);
+  float rq = radiusOfShare(at.y, spiralScale);
+  float rb = radiusOfShare(at.z, spiralScale);
+  Cell c;
+  c.a = index == 0 ? 0.0 : sqrt(max(0.0, ra * ra - s.d * s.d));
+  c.q = sqrt(max(1e-16, rq * rq - s.d * s.d));
+  c.b = sqrt(max(1e-16, rb * rb - s.d * s.d));
+  c.area = 3.141592653589793 * (c.b * c.b - c.a * c.a) / (1.0 + s.e * phi.x);
+  c.uv = g.uv + c.q * (phi.x * s.inwards + phi.y * vec2(-s.inwards.y, s.inwards.x)) / g.width;
+  return c;
+}
+
+bool offTheMap(vec2 uv) { return uv.x < 0.0 || uv.y < 0.0 || uv.x > 1.0 || uv.y > 1.0; }
+
+float levelOf(Ground g, Cell c) { return max(0.0, 0.5 * log2(c.area) - log2(g.texel) - 1.0); }
+
+void addCell(inout Sum sum, Ground g, Cell c, int index) {
+  float level = levelOf(g, c);
+  vec4 t = textureLod(moments, c.uv, level);
   if (t.x < kDark) return;
   vec3 m = t.yzw / t.x;
   float variance = m.y - m.x * m.x;
   float height = m.x - g.z;
   // The surface's slope inside the footprint is not a spread of depths.
   float footprint = exp2(level) * g.texel;
-  float slope2 = max((height - g.depth) * (height - g.depth) / (q * q), g.slope2);
+  float slope2 = max((height - g.depth) * (height - g.depth) / (c.q * c.q), g.slope2);
   variance -= 0.25 * slope2 * footprint * footprint;
   vec3 f;
   if (variance <= 1e-9) {
-    f = cellKernel(a, b, q, g.depth, height, g.window);
+    f = cellKernel(c.a, c.b, c.q, g.depth, height, g.window);
   } else {
     // Two nodes with the flux's mean, variance and skewness.
     float third = m.z - 3.0 * m.x * m.y + 2.0 * m.x * m.x * m.x;
@@ -135,52 +196,23 @@ void addCell(inout Sum sum, Ground g, vec2 uv, float area, float a, float b, flo
     float skew = clamp(third / (variance * deviation), -20.0, 20.0);
     float root = sqrt(skew * skew + 4.0);
     float w = 0.5 * (skew + root) / root;
-    f = w * cellKernel(a, b, q, g.depth, height + 0.5 * deviation * (skew - root), g.window) +
-        (1.0 - w) * cellKernel(a, b, q, g.depth, height + 0.5 * deviation * (skew + root), g.window);
+    f = w * cellKernel(c.a, c.b, c.q, g.depth, height + 0.5 * deviation * (skew - root), g.window) +
+        (1.0 - w) * cellKernel(c.a, c.b, c.q, g.depth, height + 0.5 * deviation * (skew + root), g.window);
   }
-  sum.radiosity += area * t.x * f;
-  sum.weighted += area * area * t.x * f;
-  sum.weight += area * area * t.x;
-  sum.flux += area * t.x;
+  sum.radiosity += c.area * t.x * f;
+  sum.weighted += c.area * c.area * t.x * f;
+  sum.weight += c.area * c.area * t.x;
+  sum.flux += c.area * t.x;
   if (4 * index >= 3 * sampleCount) sum.faintest = min(sum.faintest, f);
 }
 
 vec3 radiosity(LightView view, Receiver r) {
   Ground g = groundOf(view, r);
-  float d = min(0.2 * max(g.depth, 0.0), 0.5 * spiralScale);  // lit surface may be nearer than straight above
-  float g0 = radialShare(d, spiralScale);
-  // The spiral fills the object's circle, which lies off the receiver by e0.
-  float rc = 1.05 * boundRadius + g.texel;
-  float e0 = min(length(g.p), 0.999 * rc);
-  vec2 inwards = e0 > 1e-6 ? -g.p / length(g.p) : vec2(1.0, 0.0);
-  float farthest = length(vec2(reach, d));
-  float farShare = radialShare(min(length(vec2(rc + e0, d)), farthest), spiralScale) - g0;
-  float nearShare = radialShare(min(length(vec2(rc - e0, d)), farthest), spiralScale) - g0;
-  float e = 0.9 * (farShare - nearShare) / max(1e-9, farShare + nearShare);
+  Spiral s = spiralOf(g);
   Sum sum = Sum(vec3(0.0), vec3(0.0), 0.0, 0.0, vec3(1e30));
-  float inverse = 1.0 / float(sampleCount);
-  vec2 table = vec2(textureSize(azimuths, 0));
-  float row = (e / 0.9 * (table.y - 1.0) + 0.5) / table.y;
-  // The golden angle's turns are the map's own, not counted from `inwards`: the pattern would spin where the receiver
-  // crosses the axis.
-  float inwardsTurn = atan(inwards.y, inwards.x) / 6.283185307179586;
   for (int i = 0; i < sampleCount; ++i) {
-    float turn = fract(0.6180339887498949 * float(i) - inwardsTurn);
-    vec2 phi = textureLod(azimuths, vec2((turn * (table.x - 1.0) + 0.5) / table.x, row), 0.0).xy;
-    float edge = min(length(vec2(distanceToCircle(e0, rc, phi.x, phi.y), d)), farthest);
-    float share = radialShare(edge, spiralScale) - g0;
-    vec3 at = vec3(float(i), float(i) + 0.5, float(i) + 1.0) * (inverse * share) + g0;
-    float ra = radiusOfShare(at.x, spiralScale);
-    float rq = radiusOfShare(at.y, spiralScale);
-    float rb = radiusOfShare(at.z, spiralScale);
-    float a = i == 0 ? 0.0 : sqrt(max(0.0, ra * ra - d * d));
-    float q = sqrt(max(1e-16, rq * rq - d * d));
-    float b = sqrt(max(1e-16, rb * rb - d * d));
-    float area = 3.141592653589793 * (b * b - a * a) / (1.0 + e * phi.x);
-    vec2 o = q * (phi.x * inwards + phi.y * vec2(-inwards.y, inwards.x));
-    vec2 uv = g.uv + o / g.width;
-    if (uv.x < 0.0 || uv.y < 0.0 || uv.x > 1.0 || uv.y > 1.0) continue;
-    addCell(sum, g, uv, area, a, b, q, i);
+    Cell c = cellOf(g, s, i);
+    if (!offTheMap(c.uv)) addCell(sum, g, c, i);
   }
   // What the samples missed of the known total flux, spread like the samples (a control variate), tapered where they
   // missed so much that the estimate means nothing.
@@ -192,8 +224,11 @@ vec3 radiosity(LightView view, Receiver r) {
          (profileP(0.0) - profileP(g.window)) * g.local;
 }
 
-// What leaves the surface at the receiver for the light as it is.
-vec3 litRadiosity(LightView view, Receiver r) {
+// Power of the light at the receiver's depth, per flux of the map.
+vec3 powerAt(LightView view, Receiver r) {
   float depth = dot(r.position - view.origin, view.forward);
-  return lightPower / mix(1.0, depth * depth, view.perspective) * radiosity(view, r);
+  return lightPower / mix(1.0, depth * depth, view.perspective);
 }
+
+// What leaves the surface at the receiver for the light as it is.
+vec3 litRadiosity(LightView view, Receiver r) { return powerAt(view, r) * radiosity(view, r); }

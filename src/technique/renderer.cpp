@@ -9,6 +9,7 @@
 #include "lychnite/base/error.h"
 #include "lychnite/gpu/context.h"
 #include "technique/composite/composite_pass.h"
+#include "technique/multiple/sample_view.h"
 #include "technique/read_back.h"
 #include "technique/renderer_textures.h"
 #include "technique/shading.h"
@@ -65,6 +66,7 @@ struct Renderer::Impl {
   SurfaceShading surface;
   AmbientShading ambient;
   CompositePass composite;
+  SampleView sampleView;
   std::vector<LightLayers> layers;
   Layer ambientLayer;
   std::map<std::string, gpu::GpuTimer> timers;
@@ -227,6 +229,18 @@ const gpu::Texture& RendererTextures::geometry(const Renderer& renderer) {
 
 const LightMapPass& RendererTextures::maps(const Renderer& renderer) {
   return renderer.impl_->maps;
+}
+
+std::optional<SeenSamples> RendererTextures::samplesAt(Renderer& renderer, const Scene& scene,
+                                                       const RenderSettings& settings,
+                                                       const glm::ivec2& pixel, size_t light) {
+  Renderer::Impl& all = *renderer.impl_;
+  if (!settings.components.multiple || light >= scene.lights.size()) return {};
+  all.context.makeCurrent();
+  const Frame frame = makeFrame(scene, settings.width, settings.height);
+  const ShadingInputs in{frame, all.geometry, all.maps, all.profiles, settings};
+  if (settings.method == Method::kMatched) return all.sampleView.at(in, all.matched, pixel, light);
+  return all.sampleView.at(in, all.lattice, pixel, light);
 }
 
 const RenderStats& Renderer::stats() const {

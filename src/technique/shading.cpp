@@ -45,25 +45,31 @@ bool MultipleLatticeShading::update(Layer& layer, const ShadingInputs& in, size_
   Key key = Key().add(commonKey(in, light)).add(fixed).add(constants.C1).add(constants.C2).add(constants.K);
   for (const FrameObject& object : in.frame.objects) key.add(object.source->size);
   return layer.update("multiple", key, in.frame, in.geometry, [&](size_t i) -> gpu::Program* {
-    const FrameObject& object = in.frame.objects[i];
-    if (!object.translucent) return nullptr;
+    if (!in.frame.objects[i].translucent) return nullptr;
     gpu::Program& program = fixed ? fixed_ : adaptive_;
-    const LightMapPass::Map& map = in.maps.get(i, light);
-    const ProfileCache::Entry& profile = in.profiles.get(i);
-    map.view.setUniforms(program);
-    program.setTexture("map", fixed ? *map.normal : *map.cosine);
-    if (fixed) program.setTexture("mapDepth", *map.normalDepth);
-    program.setTexture("profile", *profile.table);
-    program.set("profileScale", profile.scale);
-    program.set("eta", object.medium.eta);
-    program.set("piC", profile.piC);
-    const Coefficients& medium = object.source->material.medium;
-    const double size = fixed ? latticeReferenceSize(medium) : object.source->size;
-    const int levels = (fixed ? *map.normal : *map.cosine).levels();
-    const auto cells = makeLattice(latticeSlope(constants, medium, size), levels - 1);
-    program.set("lattice", std::span<const glm::vec4>(cells));
+    setUniforms(program, in, i, light);
+    program.set("piC", in.profiles.get(i).piC);
     return &program;
   });
+}
+
+void MultipleLatticeShading::setUniforms(gpu::Program& program, const ShadingInputs& in, size_t i,
+                                         size_t light) {
+  const bool fixed = in.settings.method == Method::kFixed;
+  const FrameObject& object = in.frame.objects[i];
+  const LightMapPass::Map& map = in.maps.get(i, light);
+  const ProfileCache::Entry& profile = in.profiles.get(i);
+  map.view.setUniforms(program);
+  program.setTexture("map", fixed ? *map.normal : *map.cosine);
+  if (fixed) program.setTexture("mapDepth", *map.normalDepth);
+  program.setTexture("profile", *profile.table);
+  program.set("profileScale", profile.scale);
+  program.set("eta", object.medium.eta);
+  const Coefficients& medium = object.source->material.medium;
+  const double size = fixed ? latticeReferenceSize(medium) : object.source->size;
+  const int levels = (fixed ? *map.normal : *map.cosine).levels();
+  const auto cells = makeLattice(latticeSlope(in.settings.lattice, medium, size), levels - 1);
+  program.set("lattice", std::span<const glm::vec4>(cells));
 }
 
 MultipleMatchedShading::MultipleMatchedShading()

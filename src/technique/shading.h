@@ -25,6 +25,8 @@ class MultipleLatticeShading {
  public:
   MultipleLatticeShading();
   bool update(Layer& layer, const ShadingInputs& in, size_t light);
+  /// The uniforms of pass/lattice_sampler.glsl.
+  void setUniforms(gpu::Program& program, const ShadingInputs& in, size_t object, size_t light);
 
  private:
   gpu::Program adaptive_, fixed_;
@@ -36,6 +38,8 @@ class MultipleMatchedShading {
  public:
   MultipleMatchedShading();
   bool update(Layer& layer, const ShadingInputs& in, size_t light);
+  /// The uniforms of pass/matched_sampler.glsl.
+  void setUniforms(gpu::Program& program, const ShadingInputs& in, size_t object, size_t light);
 
  private:
   struct Coarse {
@@ -44,7 +48,6 @@ class MultipleMatchedShading {
   };
   const gpu::Texture& azimuths();
   Coarse& coarse(const CameraFrame& camera);
-  void setUniforms(gpu::Program& program, const ShadingInputs& in, size_t object, size_t light);
   void drawCoarse(const ShadingInputs& in, size_t object, size_t light);
 
   gpu::Program coarseProgram_, program_;

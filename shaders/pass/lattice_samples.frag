@@ -1,0 +1,22 @@
+// The samples that multiple_lattice.frag takes for one pixel.
+#include "pass/lattice_sampler.glsl"
+#include "pass/seen_samples.glsl"
+
+void main() {
+  Receiver receivers[4];
+  int count = loadReceivers(pixel * 2, receivers);
+  place = vec4(0.0);
+  share = vec4(0.0);
+  if (count == 0) return;
+  LightView view = lightView();
+  Receiver r = receivers[0];
+  int i = int(gl_FragCoord.x);
+  if (i == kCells) {
+    place = vec4(r.position, float(count));
+    share = vec4(radiosity(view, r.position), 0.0);
+    return;
+  }
+  Cell c = cellOf(view, r.position, vec2(projectToMap(view, r.position)), i);
+  place = vec4(c.uv, c.level, sqrt(lattice[i].w) / float(textureSize(map, 0).x));
+  share = vec4(c.radiosity, c.depth);
+}

@@ -1,0 +1,28 @@
+// The samples that the matched sampler takes for one pixel, were it evaluated for itself.
+#include "pass/matched_sampler.glsl"
+#include "pass/seen_samples.glsl"
+
+void main() {
+  Receiver receivers[4];
+  int count = loadReceivers(pixel * 2, receivers);
+  place = vec4(0.0);
+  share = vec4(0.0);
+  if (count == 0) return;
+  LightView view = lightView();
+  Receiver r = receivers[0];
+  int i = int(gl_FragCoord.x);
+  if (i == sampleCount) {
+    place = vec4(r.position, float(count));
+    share = vec4(litRadiosity(view, r), 0.0);
+    return;
+  }
+  Ground g = groundOf(view, r);
+  Cell c = cellOf(g, spiralOf(g), i);
+  float level = levelOf(g, c);
+  place = vec4(c.uv, level, sqrt(c.area) / g.width);
+  if (offTheMap(c.uv)) return;
+  Sum sum = Sum(vec3(0.0), vec3(0.0), 0.0, 0.0, vec3(1e30));
+  addCell(sum, g, c, i);
+  vec2 m = textureLod(moments, c.uv, level).xy;
+  share = vec4(powerAt(view, r) * sum.radiosity, m.x > kDark ? centreDepth - m.y / m.x : 0.0);
+}
