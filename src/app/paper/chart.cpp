@@ -12,7 +12,7 @@
 namespace lychnite::paper {
 namespace {
 
-constexpr double kWidth = 460, kHeight = 330;
+constexpr double kWidth = 460, kHeight = 345;
 constexpr glm::dvec2 kFrom{62, 34}, kSize{378, 240};  // of the frame
 constexpr double kText = 11.5;
 constexpr float kGrid = 0.87f, kMinorGrid = 0.945f;
@@ -122,18 +122,19 @@ void drawSeries(Canvas& canvas, const Series& series, const Axis& x, const Axis&
 
 /// Below the plot, in one line.
 void drawLegend(Canvas& canvas, const Chart& chart) {
-  constexpr double kLine = 26, kGap = 14;
+  constexpr double kLine = 24, kGap = 12, kSmall = 10.5;
   double width = -kGap;
-  for (const Series& series : chart.series) width += kLine + 5 + canvas.textWidth(series.label, kText) + kGap;
-  double left = kFrom.x + (kSize.x - width) / 2;
-  const double top = kHeight - 8;
+  for (const Series& series : chart.series)
+    width += kLine + 5 + canvas.textWidth(series.label, kSmall) + kGap;
+  double left = std::max(4.0, (kWidth - width) / 2);
+  const double top = kHeight - 10;
   for (const Series& series : chart.series) {
     const Look& look = lookOf(series.style);
     canvas.line({{left, top - 4}, {left + kLine, top - 4}},
                 {.colour = look.colour, .width = 1.5, .dashes = look.dashes});
-    canvas.marker(look.marker, {left + kLine / 2, top - 4}, 7, look.colour);
-    canvas.text(series.label, {left + kLine + 5, top}, kText);
-    left += kLine + 5 + canvas.textWidth(series.label, kText) + kGap;
+    canvas.marker(look.marker, {left + kLine / 2, top - 4}, 6.5, look.colour);
+    canvas.text(series.label, {left + kLine + 5, top}, kSmall);
+    left += kLine + 5 + canvas.textWidth(series.label, kSmall) + kGap;
   }
 }
 

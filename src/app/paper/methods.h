@@ -1,11 +1,9 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/paper/studio.h"
-#include "lychnite/image/metrics.h"
 
 namespace lychnite::paper {
 
@@ -21,20 +19,35 @@ struct MethodColumn {
 /// fixed, adaptive, matched, volume, hierarchical.
 std::vector<MethodColumn> comparedMethods();
 
-/// How far a picture is from the walk's.
+/// The walk twice, independently, so that its noise is not counted as a method's error.
+struct Truth {
+  Image first, second, mean;
+  double noise = 0;    ///< of the mean: root mean square of its standard error over its mean, covered pixels
+  double seconds = 0;  ///< of both
+};
+/// Two steps. `settings` are of the walk; its noise and time limits are those of the mean.
+Truth truthOf(Studio& studio, const std::string& name, const Scene& scene, const RenderSettings& settings);
+
+/// How far a picture is from the truth, over the pixels that are covered whole, R, G, B together. Mean
+/// squares are of (M - T1)(M - T2), to which the noise of T1 and T2 does not add; the FLIPs are against their
+/// mean, noise included.
 struct Score {
-  Metrics asItIs;  ///< of R, G, B together
+  double rmse = 0,
+         uncertainty = 0;  ///< over the truth's mean; the standard error that the walks' noise leaves
+  double bias = 0;         ///< of the mean, relative
+  double gain = 1;         ///< the one factor that fits best
+  double rmseAfterGain = 0;
   double flip = 0, flipAfterGain = 0;
   double seconds = 0;
 };
-/// `exposure` is for FLIP. The walk's own noise (its layer "stderr") is taken out of the RMSE.
-Score scoreOf(const Image& image, const Image& walk, double exposure);
+/// `exposure` is for FLIP.
+Score scoreOf(const Image& image, const Truth& truth, double exposure);
 
-/// Columns of `scoreCells`, after what a table has of its own.
+/// Columns of `scoreCells`, after what a table has of its own; the last is the time.
 std::vector<Column> scoreColumns();
 std::vector<Cell> scoreCells(const Score& score);
 
-/// The walk's relative noise as its metadata says, and how long it took.
-double noiseOf(const Image& walk);
+/// "12.3 %", "123 %".
+std::string percent(double share);
 
 }  // namespace lychnite::paper

@@ -40,7 +40,6 @@ tr.group td { border-top: 1px solid #ccc; }
 .files { font-size: .84rem; color: #666; }
 footer { padding-top: 1.2rem; padding-bottom: 3rem; font-size: .88rem; color: #555; }
 @media print { nav { display: none; } section { break-inside: avoid-page; } }
-@media (max-width: 45rem) { .grid { grid-template-columns: repeat(2, 1fr) !important; } }
 )";
 
 std::string escaped(std::string_view text) {
@@ -79,8 +78,8 @@ std::string prose(std::string_view text) {
 
 std::string cellHtml(const Picture& picture, const std::string& folder) {
   if (picture.file.empty())
-    return fmt::format("<div class=\"cell\"><div class=\"label detail\">{}</div></div>\n",
-                       escaped(picture.detail));
+    return fmt::format("<div class=\"cell label\">{}<div class=\"detail\">{}</div></div>\n",
+                       escaped(picture.label), escaped(picture.detail));
   const std::string file = escaped(folder + "/" + picture.file);
   const std::string alt = escaped(picture.label.empty() ? picture.file : picture.label);
   std::string text =
@@ -98,9 +97,10 @@ std::string cellHtml(const Picture& picture, const std::string& folder) {
 }
 
 std::string galleryHtml(const Gallery& gallery, const std::string& folder) {
-  std::string text = fmt::format(
-      "<figure><div class=\"grid\" style=\"grid-template-columns: repeat({}, minmax(0, 1fr))\">\n",
-      gallery.columns);
+  const std::string width = gallery.cellWidth > 0 ? fmt::format("{}px", gallery.cellWidth) : "1fr";
+  std::string text =
+      fmt::format("<figure><div class=\"grid\" style=\"grid-template-columns: repeat({}, minmax(0, {}))\">\n",
+                  gallery.columns, width);
   for (const Picture& picture : gallery.pictures) text += cellHtml(picture, folder);
   text += "</div>\n";
   if (!gallery.caption.empty()) text += fmt::format("<figcaption>{}</figcaption>", prose(gallery.caption));

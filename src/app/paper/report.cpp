@@ -42,14 +42,18 @@ Table tableFrom(const Json& json) {
 }
 
 Json toJson(const Gallery& gallery) {
-  Json json{{"gallery", Json::array()}, {"columns", gallery.columns}, {"caption", gallery.caption}};
+  Json json{{"gallery", Json::array()},
+            {"columns", gallery.columns},
+            {"cell_width", gallery.cellWidth},
+            {"caption", gallery.caption}};
   for (const Picture& p : gallery.pictures)
     json["gallery"].push_back({{"file", p.file}, {"exr", p.exr}, {"label", p.label}, {"detail", p.detail}});
   return json;
 }
 
 Gallery galleryFrom(const Json& json) {
-  Gallery gallery{.columns = json.at("columns"), .caption = json.at("caption")};
+  Gallery gallery{
+      .columns = json.at("columns"), .cellWidth = json.at("cell_width"), .caption = json.at("caption")};
   for (const Json& p : json.at("gallery"))
     gallery.pictures.push_back({p.at("file"), p.at("exr"), p.at("label"), p.at("detail")});
   return gallery;

@@ -45,6 +45,7 @@ struct Picture {
 struct Gallery {
   std::vector<Picture> pictures;
   int columns = 3;
+  int cellWidth = 0;  ///< at most, in pixels of the page; 0: what there is room for
   std::string caption;
 };
 

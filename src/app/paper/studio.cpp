@@ -129,9 +129,10 @@ double Studio::secondsOf(const Image& image) {
   return found == image.metadata.end() ? 0 : std::stod(found->second);
 }
 
-Image Studio::picture(const std::string& name, const Scene& scene, const RenderSettings& settings) {
+Image Studio::picture(const std::string& name, const Scene& scene, const RenderSettings& settings,
+                      Timing timing) {
   const fs::path path = file(name + ".exr");
-  const std::string key = keyOf(scene, settings);
+  const std::string key = keyOf(scene, settings) + (timing == Timing::kFrames ? "t" : "");
   Image image;
   bool found = false;
   if (fs::exists(path)) {
@@ -143,8 +144,8 @@ Image Studio::picture(const std::string& name, const Scene& scene, const RenderS
     }
   }
   if (!found) {
-    image =
-        settings.method == Method::kWalk ? walk(name, key, scene, settings) : render(name, scene, settings);
+    image = settings.method == Method::kWalk ? walk(name, key, scene, settings)
+                                             : render(name, scene, settings, timing);
     image.metadata["paper.key"] = key;
     writeExr(image, path);
   }
@@ -152,22 +153,22 @@ Image Studio::picture(const std::string& name, const Scene& scene, const RenderS
   return image;
 }
 
-Image Studio::render(const std::string& name, const Scene& scene, const RenderSettings& settings) {
+Image Studio::render(const std::string& name, const Scene& scene, const RenderSettings& settings,
+                     Timing timing) {
   const Progress progress = within(name);
-  std::array<double, 3> seconds{};
-  double start = now();
-  if (isRealTime(settings.method)) {
-    maker_.render(nudged(scene, int(seconds.size()) + 1), settings, progress);
-    for (size_t i = 0; i < seconds.size(); ++i) {
-      maker_.render(nudged(scene, int(seconds.size() - i)), settings, progress);
-      seconds[i] = maker_.stats()->frameMs / 1000;
+  std::array<double, 3> frames{};
+  const bool timeFrames = timing == Timing::kFrames && isRealTime(settings.method);
+  if (timeFrames) {
+    maker_.render(nudged(scene, int(frames.size()) + 1), settings, progress);
+    for (size_t i = 0; i < frames.size(); ++i) {
+      maker_.render(nudged(scene, int(frames.size() - i)), settings, progress);
+      frames[i] = maker_.stats()->frameMs / 1000;
     }
-    std::sort(seconds.begin(), seconds.end());
-    start = now();
+    std::sort(frames.begin(), frames.end());
   }
+  const double start = now();
   Image image = maker_.render(scene, settings, progress);
-  image.metadata["paper.seconds"] =
-      fmt::format("{:.6g}", isRealTime(settings.method) ? seconds[1] : now() - start);
+  image.metadata["paper.seconds"] = fmt::format("{:.6g}", timeFrames ? frames[1] : now() - start);
   return image;
 }
 

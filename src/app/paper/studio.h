@@ -34,10 +34,13 @@ class Studio {
   /// The built-in model of that name, or the file of the folder of models.
   Object object(const std::string& model);
 
+  /// How a picture's time is taken: of the call, or of a real-time method the median of three frames in which
+  /// all but the mesh changes.
+  enum class Timing { kOnce, kFrames };
   /// The picture of a scene, from `name`.exr where that was made of the same scene and settings. A walk that
-  /// is interrupted is kept, and gone on with. One step. Metadata "paper.seconds": the wall time it took (of
-  /// a real-time method: the median of three frames in which all but the mesh has changed).
-  Image picture(const std::string& name, const Scene& scene, const RenderSettings& settings);
+  /// is interrupted is kept, and gone on with. One step. Metadata "paper.seconds": the wall time it took.
+  Image picture(const std::string& name, const Scene& scene, const RenderSettings& settings,
+                Timing timing = Timing::kOnce);
   static double secondsOf(const Image& image);
 
   /// Writes `name`.png; the name with its extension.
@@ -51,7 +54,7 @@ class Studio {
   const std::set<std::string>& files() const { return files_; }
 
  private:
-  Image render(const std::string& name, const Scene& scene, const RenderSettings& settings);
+  Image render(const std::string& name, const Scene& scene, const RenderSettings& settings, Timing timing);
   Image walk(const std::string& name, const std::string& key, const Scene& scene,
              const RenderSettings& settings);
   std::string keyOf(const Scene& scene, const RenderSettings& settings);
