@@ -28,7 +28,7 @@ Scene sceneOf(Studio& studio, const Figure& figure, double size) {
   scene.objects[0].material.medium = findMaterial(figure.material, "paper").coefficients;
   scene.objects[0].size = size;
   scene.lights = {figure.light};
-  scene.camera = OrbitCamera{.factor = 0.68};
+  scene.camera = OrbitCamera{.factor = 0.8};
   return scene;
 }
 

@@ -27,7 +27,7 @@ Scene sceneOf(Studio& studio, const char* material, double size) {
   scene.objects[0].material.medium = findMaterial(material, "paper").coefficients;
   scene.objects[0].size = size;
   scene.lights = {kLight};
-  scene.camera = OrbitCamera{.factor = 0.68};
+  scene.camera = OrbitCamera{.factor = 0.8};
   return scene;
 }
 

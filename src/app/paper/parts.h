@@ -22,6 +22,10 @@ std::span<const Part> parts();
 // What makes each.
 int sizesSteps(const Studio&);
 void makeSizes(Studio&, Report&);  ///< Fig. 1
+int fittingSteps(const Studio&);
+void makeFitting(Studio&, Report&);  ///< Fig. 3
+int patternSteps(const Studio&);
+void makePatterns(Studio&, Report&);  ///< Fig. 4 and 5
 int componentsSteps(const Studio&);
 void makeComponents(Studio&, Report&);  ///< Fig. 6
 int figure7Steps(const Studio&);

@@ -74,6 +74,15 @@ glm::dvec3 meanColour(const Image& image) {
   return sum / std::max(count, 1.0);
 }
 
+Image displayed(const Image& image) {
+  Image result = image;
+  for (size_t i = 0; i < image.pixelCount(); ++i) {
+    const glm::vec3 c = image.rgb(i);
+    result.setRgb(i, {linearFromSrgb(c.x), linearFromSrgb(c.y), linearFromSrgb(c.z)});
+  }
+  return result;
+}
+
 Image scaled(const Image& image, double factor) {
   Image result = image;
   for (size_t i = 0; i < image.pixelCount(); ++i) result.setRgb(i, image.rgb(i) * float(factor));
@@ -213,6 +222,11 @@ std::string Studio::show(const std::string& name, const Image& image, const Tone
 fs::path Studio::file(const std::string& name) {
   files_.insert(name);
   return folder_ / name;
+}
+
+Renderer& Studio::renderer() {
+  if (!renderer_) renderer_.emplace(RendererOptions{.useCurrentContext = true, .log = settings_.log});
+  return *renderer_;
 }
 
 double Studio::seconds() const {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -48,6 +49,9 @@ class Studio {
   /// A file of this part that is written by other means: its path; it will not be cleaned away.
   std::filesystem::path file(const std::string& name);
 
+  /// For what the ImageMaker's renderer does not show; in the same context.
+  Renderer& renderer();
+
   /// Seconds spent since begin(), pictures found on disk not counted.
   double seconds() const;
   /// Names of what the part has written or found.
@@ -69,6 +73,7 @@ class Studio {
   double begun_ = 0;
   std::map<const Mesh*, std::string> meshKeys_;
   std::map<std::string, Object> objects_;
+  std::optional<Renderer> renderer_;
 };
 
 /// 64 bits of FNV-1a, as 16 hexadecimal digits.
@@ -80,6 +85,9 @@ double exposureFor(const Image& image);
 
 /// Mean colour of the pixels that are covered whole.
 glm::dvec3 meanColour(const Image& image);
+
+/// A picture of display values as linear ones, for writePng and its plain sRGB curve.
+Image displayed(const Image& image);
 
 /// The picture with its colour times a factor.
 Image scaled(const Image& image, double factor);
