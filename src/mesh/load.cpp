@@ -1,7 +1,6 @@
 #include "lychnite/mesh/load.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -38,15 +37,16 @@ const Format& formatOf(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   for (char& c : extension)
     if (c >= 'A' && c <= 'Z') c += 'a' - 'A';
-  std::vector<std::string_view> known;
+  std::string known, found = "no extension";
   for (const Format& format : kFormats) {
     if (format.extension == extension) return format;
-    known.push_back(format.extension);
+    if (!known.empty()) known += ' ';
+    known += format.extension;
   }
+  if (!extension.empty()) found.assign("the extension '").append(extension).append("'");
   throw Error({.where = path.string(),
-               .expected = fmt::format("a mesh file ({})", fmt::join(known, " ")),
-               .found = extension.empty() ? std::string("no extension")
-                                          : fmt::format("the extension '{}'", extension),
+               .expected = fmt::format("a mesh file ({})", known),
+               .found = found,
                .todo = "convert the model to one of them"});
 }
 
