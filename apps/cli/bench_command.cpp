@@ -16,9 +16,10 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Flags {
-  std::string methods = "adaptive,matched", models, json, compare, results, device = "auto";
+  std::string methods = "adaptive,matched,volume", scenes, changes, models, json, compare, results,
+              device = "auto";
   int frames = 0, warmUp = 0;
-  bool quick = false;
+  bool quick = false, growth = false, limits = false;
 };
 
 BenchSettings settingsFrom(const Flags& flags) {
@@ -26,7 +27,11 @@ BenchSettings settingsFrom(const Flags& flags) {
   settings.methods.clear();
   for (const std::string& name : split(flags.methods, ','))
     settings.methods.push_back(parseMethod(name, "--methods"));
+  if (!flags.scenes.empty()) settings.scenes = split(flags.scenes, ',');
+  if (!flags.changes.empty()) settings.changes = split(flags.changes, ',');
   settings.quick = flags.quick;
+  settings.growth = flags.growth;
+  settings.limits = flags.limits || !flags.quick;
   if (flags.quick) settings.frames = 5;
   if (flags.frames > 0) settings.frames = flags.frames;
   if (flags.warmUp > 0) settings.warmUp = flags.warmUp;
@@ -56,17 +61,19 @@ std::string pm(const Statistic& s) {
 }
 
 void printFrames(const BenchReport& report) {
-  fmt::print("{:9} {:9} {:7} {:>16} {:>7} {:>16} {:>8} {:>8} {:>8} {:>8} {:>7}\n", "scene", "method",
-             "change", "frame ms", "fps", "CPU ms", "tri.", "vert.", "covered", "samples", "map MB");
+  fmt::print("{:9} {:9} {:7} {:>16} {:>7} {:>16} {:>8} {:>8} {:>8} {:>8} {:>7} {:>8}\n", "scene", "method",
+             "change", "frame ms", "fps", "CPU ms", "tri.", "vert.", "covered", "samples", "map MB",
+             "moved MB");
   for (const BenchRow& row : report.rows) {
     fmt::print("{:9} {:9} {:7} ", row.scene, row.method, row.change);
     if (!row.missing.empty()) {
       fmt::print("{}\n", row.missing);
       continue;
     }
-    fmt::print("{:>16} {:>7.2f} {:>16} {:>8} {:>8} {:>8} {:>8} {:>7.2f}\n", pm(row.frame),
+    fmt::print("{:>16} {:>7.2f} {:>16} {:>8} {:>8} {:>8} {:>8} {:>7.2f} {:>8.1f}\n", pm(row.frame),
                row.framesPerSecond(), pm(row.cpuMs), row.triangles, row.vertices, row.coveredPixels,
-               fmt::format("{}+{}", row.samples, row.singleSamples), double(row.mapBytes) / 1e6);
+               fmt::format("{}+{}", row.samples, row.singleSamples), double(row.mapBytes) / 1e6,
+               double(row.movedBytes) / 1e6);
   }
 }
 
@@ -90,12 +97,35 @@ void printPasses(const BenchReport& report) {
   }
 }
 
+void printLimits(const BenchLimits& limits) {
+  if (!(limits.pixels > 0)) return;
+  fmt::print(
+      "\nthe device at most, 10^9 a second: fetches {:.3f} nearest, {:.3f} bilinear, {:.3f} trilinear; "
+      "pixels {:.3f}; vertices {:.4f}, triangles {:.4f}\n",
+      limits.nearestFetches / 1e9, limits.bilinearFetches / 1e9, limits.trilinearFetches / 1e9,
+      limits.pixels / 1e9, limits.vertices / 1e9, limits.triangles / 1e9);
+}
+
+void printGrowth(const BenchReport& report) {
+  for (const BenchGrowth& growth : report.growth) {
+    fmt::print("\n{} over {}: frame time grows with exponent {:.2f} +- {:.2f}\n", growth.method, growth.over,
+               growth.exponent, growth.exponentError);
+    for (const BenchGrowth::Point& point : growth.points) {
+      fmt::print("{:>9} {:>16} ms, CPU {:>16} ms;", point.value, pm(point.frame), pm(point.cpuMs));
+      for (const BenchPass& pass : point.passes) fmt::print(" {} {:.1f}", pass.name, pass.gpuMs.median);
+      fmt::print("\n");
+    }
+  }
+}
+
 void print(const BenchReport& report) {
   fmt::print("{} ({}), {} cores, load {:.1f} to {:.1f}, {}, {} frames after {}; median ~ median deviation\n",
              report.device, report.driver, report.cores, report.load[0], report.load[1], report.date,
              report.frames, report.warmUp);
   printFrames(report);
   printPasses(report);
+  printLimits(report.limits);
+  printGrowth(report);
 }
 
 /// Prints what changed; returns true when something became slower than its noise explains.
@@ -144,7 +174,15 @@ int bench(const Flags& flags) {
 void addBench(CLI::App& app, Action& action) {
   auto flags = std::make_shared<Flags>();
   CLI::App* command = app.add_subcommand("bench", "Time whole frames of fixed scenes, pass by pass");
-  command->add_option("--methods", flags->methods, "any of fixed,adaptive,matched (adaptive,matched)");
+  command->add_option("--methods", flags->methods,
+                      "any of fixed,adaptive,matched,volume (adaptive,matched,volume)");
+  command->add_option("--scenes", flags->scenes, "any of stone,candle,knot,figurine,bunny,dragon (all)");
+  command->add_option(
+      "--changes", flags->changes,
+      "what changes from frame to frame, any of all,light,camera (all and camera; of volume also light)");
+  command->add_flag("--growth", flags->growth,
+                    "also cost over resolution, map size, samples, lights and triangles");
+  command->add_flag("--limits", flags->limits, "also with --quick: what the device can do at most");
   command->add_option("--models", flags->models, "folder of bunny.ply and dragon.ply")
       ->check(CLI::ExistingDirectory);
   command->add_option("--frames", flags->frames, "measured frames of each row (30; with --quick 5)")

@@ -35,6 +35,57 @@ Statistic statisticFrom(const Json& json) {
   return {json.at("median"), json.at("deviation")};
 }
 
+Json toJson(const std::vector<BenchPass>& passes) {
+  Json json = Json::array();
+  for (const BenchPass& pass : passes) json.push_back({{"name", pass.name}, {"gpu_ms", toJson(pass.gpuMs)}});
+  return json;
+}
+
+std::vector<BenchPass> passesFrom(const Json& json) {
+  std::vector<BenchPass> passes;
+  for (const Json& pass : json) passes.push_back({pass.at("name"), statisticFrom(pass.at("gpu_ms"))});
+  return passes;
+}
+
+Json toJson(const BenchLimits& limits) {
+  return {{"nearest_fetches_per_second", limits.nearestFetches},
+          {"bilinear_fetches_per_second", limits.bilinearFetches},
+          {"trilinear_fetches_per_second", limits.trilinearFetches},
+          {"pixels_per_second", limits.pixels},
+          {"vertices_per_second", limits.vertices},
+          {"triangles_per_second", limits.triangles}};
+}
+
+BenchLimits limitsFrom(const Json& json) {
+  return {json.at("nearest_fetches_per_second"),   json.at("bilinear_fetches_per_second"),
+          json.at("trilinear_fetches_per_second"), json.at("pixels_per_second"),
+          json.at("vertices_per_second"),          json.at("triangles_per_second")};
+}
+
+Json toJson(const BenchGrowth& growth) {
+  Json json{{"over", growth.over},
+            {"method", growth.method},
+            {"exponent", growth.exponent},
+            {"exponent_se", growth.exponentError},
+            {"points", Json::array()}};
+  for (const BenchGrowth::Point& point : growth.points)
+    json["points"].push_back({{"value", point.value},
+                              {"frame_ms", toJson(point.frame)},
+                              {"cpu_ms", toJson(point.cpuMs)},
+                              {"passes", toJson(point.passes)}});
+  return json;
+}
+
+BenchGrowth growthFrom(const Json& json) {
+  BenchGrowth growth{.over = json.at("over"), .method = json.at("method")};
+  growth.exponent = json.at("exponent");
+  growth.exponentError = json.at("exponent_se");
+  for (const Json& point : json.at("points"))
+    growth.points.push_back({point.at("value"), statisticFrom(point.at("frame_ms")),
+                             statisticFrom(point.at("cpu_ms")), passesFrom(point.at("passes"))});
+  return growth;
+}
+
 Json toJson(const BenchRow& row) {
   Json json{{"scene", row.scene}, {"method", row.method}, {"change", row.change}};
   if (!row.missing.empty()) {
@@ -51,12 +102,12 @@ Json toJson(const BenchRow& row) {
                {"covered_pixels", row.coveredPixels},
                {"map_bytes", row.mapBytes},
                {"gpu_bytes", row.gpuBytes},
+               {"memory_bytes", row.memoryBytes},
+               {"moved_bytes", row.movedBytes},
                {"frames_per_second", row.framesPerSecond()},
                {"frame_ms", toJson(row.frame)},
                {"cpu_ms", toJson(row.cpuMs)}});
-  json["passes"] = Json::array();
-  for (const BenchPass& pass : row.passes)
-    json["passes"].push_back({{"name", pass.name}, {"gpu_ms", toJson(pass.gpuMs)}});
+  json["passes"] = toJson(row.passes);
   json["all_frames_ms"] = row.frameMs;
   return json;
 }
@@ -80,10 +131,11 @@ BenchRow rowFrom(const Json& json) {
   row.coveredPixels = json.at("covered_pixels");
   row.mapBytes = json.at("map_bytes");
   row.gpuBytes = json.at("gpu_bytes");
+  row.memoryBytes = json.value("memory_bytes", size_t(0));
+  row.movedBytes = json.value("moved_bytes", size_t(0));
   row.frame = statisticFrom(json.at("frame_ms"));
   row.cpuMs = statisticFrom(json.at("cpu_ms"));
-  for (const Json& pass : json.at("passes"))
-    row.passes.push_back({pass.at("name"), statisticFrom(pass.at("gpu_ms"))});
+  row.passes = passesFrom(json.at("passes"));
   row.frameMs = json.at("all_frames_ms").get<std::vector<double>>();
   return row;
 }
@@ -100,6 +152,9 @@ BenchReport reportFrom(const Json& json) {
   report.frames = json.at("frames");
   report.warmUp = json.at("warm_up");
   for (const Json& row : json.at("rows")) report.rows.push_back(rowFrom(row));
+  if (json.contains("limits")) report.limits = limitsFrom(json.at("limits"));
+  if (json.contains("growth"))
+    for (const Json& growth : json.at("growth")) report.growth.push_back(growthFrom(growth));
   return report;
 }
 
@@ -126,6 +181,8 @@ std::string benchJson(const BenchReport& report) {
             {"load", report.load},        {"frames", report.frames},     {"warm_up", report.warmUp},
             {"rows", Json::array()}};
   for (const BenchRow& row : report.rows) json["rows"].push_back(toJson(row));
+  if (report.limits.pixels > 0) json["limits"] = toJson(report.limits);
+  for (const BenchGrowth& growth : report.growth) json["growth"].push_back(toJson(growth));
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

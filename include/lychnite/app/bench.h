@@ -22,37 +22,69 @@ struct Statistic {
 Statistic statisticOf(std::vector<double> values);
 
 struct BenchSettings {
-  std::vector<Method> methods{Method::kAdaptive, Method::kMatched};  ///< of fixed, adaptive, matched
-  int frames = 30;               ///< measured frames of each row, 1..100000
-  int warmUp = 3;                ///< frames before them that do not count, at least 1
-  bool quick = false;            ///< one scene, 150 x 150, a 256 map
+  std::vector<Method> methods{Method::kAdaptive, Method::kMatched};  ///< of fixed, adaptive, matched, volume
+  std::vector<std::string> scenes;   ///< empty: stone, candle, knot, figurine, bunny, dragon (quick: stone)
+  std::vector<std::string> changes;  ///< empty: "all" and "camera", of volume also "light"
+  int frames = 30;                   ///< measured frames of each row, 1..100000
+  int warmUp = 3;                    ///< frames before them that do not count, at least 1
+  bool quick = false;                ///< one scene, 150 x 150, a 256 map
+  bool limits = false;               ///< also what the device can do at most
+  bool growth = false;           ///< also cost against resolution, map size, samples, lights and triangles
   std::filesystem::path models;  ///< folder of bunny.ply and dragon.ply; empty: none
   std::string device = "auto";   ///< as RendererOptions::device
   LogSink log;
 };
-/// Throws Error (Kind::kUsage): numbers out of range, a method that is not drawn by the Renderer, no folder.
+/// Throws Error (Kind::kUsage): numbers out of range, a judge, an unknown scene or change, no folder.
 void validate(const BenchSettings& settings);
 
 struct BenchPass {
   std::string name;
-  Statistic gpuMs;  ///< by the device's timer; 0 in frames that did not need the pass
+  Statistic
+      gpuMs;  ///< by the device's timer (of volume: the wall's clock); 0 in frames that did not need the pass
 };
 
 /// One scene by one method under one kind of change.
 struct BenchRow {
   std::string scene, method;
-  std::string change;   ///< "all": light, size and material are others in each frame; "camera": only it turns
+  /// "all": light, size and material are others in each frame; "light", "camera": only it turns.
+  std::string change;
   std::string missing;  ///< why nothing was measured and what to do; then all below is 0
   int width = 0, height = 0, mapSize = 0;
   int samples = 0, singleSamples = 0;  ///< asked for, a pixel and light
   size_t triangles = 0, vertices = 0;
-  size_t coveredPixels = 0;  ///< in the first warm-up frame
-  size_t mapBytes = 0, gpuBytes = 0;
+  size_t coveredPixels = 0;                            ///< in the first warm-up frame
+  size_t mapBytes = 0, gpuBytes = 0, memoryBytes = 0;  ///< the last: of volume, on the CPU
+  size_t movedBytes = 0;        ///< read and written in a frame, had nothing a cache (docs/performance.md)
   std::vector<double> frameMs;  ///< wall time of each frame, from the call until the device is done
   Statistic frame, cpuMs;       ///< of frameMs; of this process's CPU time on all cores, a frame
   std::vector<BenchPass> passes;
   double framesPerSecond() const { return frame.median > 0 ? 1000 / frame.median : 0; }
 };
+
+/// What the device can do at most, measured by kernels that do nothing else. Per second; 0: not measured.
+struct BenchLimits {
+  double nearestFetches = 0;           ///< texelFetch of RGBA32F, 512 x 512, neighbours to neighbours
+  double bilinearFetches = 0;          ///< textureLod at a whole level of the same
+  double trilinearFetches = 0;         ///< textureLod between two levels
+  double pixels = 0;                   ///< written to RGBA32F
+  double vertices = 0, triangles = 0;  ///< of a mesh of a million triangles, all off the picture
+};
+
+/// Cost of one thing that grows, all else fixed.
+struct BenchGrowth {
+  std::string over;  ///< "lines", "map_size", "samples", "lights" or "triangles"
+  std::string method;
+  struct Point {
+    double value = 0;
+    Statistic frame, cpuMs;
+    std::vector<BenchPass> passes;
+  };
+  std::vector<Point> points;
+  /// Of frame time ~ value^exponent, least squares in the logarithms, and its standard error.
+  double exponent = 0, exponentError = 0;
+};
+/// Fits the exponent to the points; 0 for fewer than two.
+void fitExponent(BenchGrowth& growth);
 
 struct BenchReport {
   std::string version, date, device, driver;
@@ -62,6 +94,8 @@ struct BenchReport {
                              0};  ///< the machine's load over the minute before the begin and before the end
   int frames = 0, warmUp = 0;
   std::vector<BenchRow> rows;
+  BenchLimits limits;
+  std::vector<BenchGrowth> growth;
 };
 
 /// Measures. Throws Error, and Interrupted when `progress` says stop.
