@@ -15,21 +15,19 @@ namespace {
 
 struct Format {
   std::string_view extension, name;
-  Mesh (*read)(std::string_view bytes, const std::filesystem::path& path);
+  GltfModel (*read)(std::string_view bytes, const std::filesystem::path& path);
 };
 
+/// A format without motion.
 template <Mesh (*kRead)(std::string_view, const std::string&)>
-Mesh withPathAsText(std::string_view bytes, const std::filesystem::path& path) {
-  return kRead(bytes, path.string());
+GltfModel still(std::string_view bytes, const std::filesystem::path& path) {
+  return {kRead(bytes, path.string()), {}};
 }
 
 constexpr std::array kFormats = {
-    Format{".ply", "PLY", withPathAsText<readPly>},
-    Format{".obj", "OBJ", withPathAsText<readObj>},
-    Format{".stl", "STL", withPathAsText<readStl>},
-    Format{".off", "OFF", withPathAsText<readOff>},
-    Format{".3ds", "3DS", withPathAsText<read3ds>},
-    Format{".gltf", "glTF", readGltf},
+    Format{".ply", "PLY", still<readPly>}, Format{".obj", "OBJ", still<readObj>},
+    Format{".stl", "STL", still<readStl>}, Format{".off", "OFF", still<readOff>},
+    Format{".3ds", "3DS", still<read3ds>}, Format{".gltf", "glTF", readGltf},
     Format{".glb", "glTF", readGltf},
 };
 
@@ -64,7 +62,7 @@ std::string_view sniff(std::string_view bytes) {
   return "";
 }
 
-Mesh readAs(const Format& format, std::string_view bytes, const std::filesystem::path& path) {
+GltfModel readAs(const Format& format, std::string_view bytes, const std::filesystem::path& path) {
   try {
     return format.read(bytes, path);
   } catch (const Error&) {
@@ -86,9 +84,14 @@ LoadedMesh loadMesh(const std::filesystem::path& path, const LogSink& log) {
   };
   refuseUnlessFile(path);
   const Format& format = formatOf(path);
-  Mesh mesh = readAs(format, readWholeFile(path), path);
+  GltfModel model = readAs(format, readWholeFile(path), path);
   const double read_seconds = secondsSoFar();
-  LoadedMesh loaded = repairMesh(std::move(mesh), path.string());
+  LoadedMesh loaded = repairMesh(std::move(model.mesh), path.string());
+  if (model.animation && model.animation->moves()) {
+    if (loaded.report.flipped)
+      for (glm::uvec3& t : model.animation->mesh.triangles) std::swap(t.y, t.z);
+    loaded.animation = std::make_shared<const MeshAnimation>(std::move(*model.animation), loaded.mesh);
+  }
   loaded.seconds = secondsSoFar();
   logTo(log, LogLevel::kDebug,
         path.string() + ": read in " + std::to_string(read_seconds) + " s, repaired in " +

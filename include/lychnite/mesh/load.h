@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lychnite/base/log.h"
+#include "lychnite/mesh/animation.h"
 #include "lychnite/mesh/mesh.h"
 
 namespace lychnite {
@@ -29,6 +30,7 @@ struct RepairReport {
 struct LoadedMesh {
   std::shared_ptr<const Mesh> mesh;
   RepairReport report;
+  std::shared_ptr<const MeshAnimation> animation;  ///< of a glTF file with animations, else null
   double seconds = 0;
 };
 
@@ -38,7 +40,8 @@ struct LoadedMesh {
 /// zero, or a required glTF extension that changes the geometry (mesh compression). Never allocates more than
 /// a small multiple of the file's size; only copies of a glTF's meshes under many nodes may add up to 16
 /// million triangles. The file's normals are kept when every vertex in use has one, and turned together where
-/// they mostly oppose the triangles. Skins and morph targets stay at rest. Safe to call from several threads.
+/// they mostly oppose the triangles. Skins and morph
+/// targets stand as the file's nodes and weights have them. Safe to call from several threads.
 LoadedMesh loadMesh(const std::filesystem::path& path, const LogSink& log = {});
 
 /// Welds, drops and makes normals as loadMesh does, on triangles from anywhere. `where` names them in errors.

@@ -8,6 +8,7 @@
 #include <glm/matrix.hpp>
 
 #include "lychnite/base/error.h"
+#include "mesh/read/gltf_animation.h"
 #include "mesh/read/gltf_file.h"
 #include "mesh/read/readers.h"
 
@@ -30,32 +31,11 @@ bool readable(const std::string& extension) {
                      [&](std::string_view start) { return extension.starts_with(start); });
 }
 
-glm::dvec3 vectorOf(const json& node, const char* member, const glm::dvec3& fallback) {
-  const auto found = node.find(member);
-  if (found == node.end()) return fallback;
-  const auto v = found->get<std::array<double, 3>>();
-  return {v[0], v[1], v[2]};
-}
-
-glm::dmat4 localTransform(const json& node) {
-  if (const auto matrix = node.find("matrix"); matrix != node.end()) {
-    const auto values = matrix->get<std::array<double, 16>>();  // column-major, as GLM's
-    return glm::make_mat4(values.data());
-  }
-  glm::dmat4 transform = glm::translate(glm::dmat4(1), vectorOf(node, "translation", glm::dvec3(0)));
-  if (const auto rotation = node.find("rotation"); rotation != node.end()) {
-    const auto q = rotation->get<std::array<double, 4>>();
-    const glm::dquat turn(q[3], q[0], q[1], q[2]);
-    if (glm::length(turn) > 0) transform *= glm::mat4_cast(glm::normalize(turn));
-  }
-  return glm::scale(transform, vectorOf(node, "scale", glm::dvec3(1)));
-}
-
 class GltfReader {
  public:
   GltfReader(std::string_view bytes, const std::filesystem::path& path) : file_(bytes, path) {}
 
-  Mesh read() {
+  GltfModel read() {
     const json& document = file_.document();
     for (const json& name : document.value("extensionsRequired", json::array()))
       if (!readable(name.get<std::string>()))
@@ -66,7 +46,15 @@ class GltfReader {
     for (const size_t root : roots(node_count)) walk(root);
     // Normals are whole or nothing; a primitive without them leaves them short.
     if (mesh_.normals.size() != mesh_.positions.size()) mesh_.normals = {};
-    return std::move(mesh_);
+    GltfModel model;
+    model.animation = readGltfAnimation(file_, parts_, mesh_);
+    model.mesh = std::move(mesh_);
+    if (model.animation && model.animation->deforms()) {
+      PosedVertices posed = posedVertices(*model.animation, {}, 0);
+      model.mesh.positions = std::move(posed.positions);
+      model.mesh.normals = std::move(posed.normals);
+    }
+    return model;
   }
 
  private:
@@ -108,20 +96,20 @@ class GltfReader {
         file_.fail("a tree of nodes",
                    "node " + std::to_string(next.node) + " under two parents or in a loop");
       visited_[next.node] = true;
-      const glm::dmat4 transform = next.parent * localTransform(node);
-      if (node.contains("mesh")) {
-        // A skinned mesh stands where its joints put it; at rest that is where its vertices are.
-        const bool skinned = node.contains("skin");
-        addMesh(file_.item("meshes", file_.whole(node, "mesh")), skinned ? glm::dmat4(1) : transform);
-      }
+      const glm::dmat4 transform = next.parent * gltfTransform(node);
+      // Where a skinned mesh stands is its joints' affair.
+      if (node.contains("mesh")) addMesh(next.node, node.contains("skin") ? glm::dmat4(1) : transform);
       const json children = node.value("children", json::array());
       for (auto child = children.rbegin(); child != children.rend(); ++child)
         pending.push_back({indexOf(*child), transform});
     }
   }
 
-  void addMesh(const json& mesh, const glm::dmat4& transform) {
-    for (const json& primitive : mesh.at("primitives")) {
+  void addMesh(size_t node, const glm::dmat4& transform) {
+    const size_t index = file_.whole(file_.item("nodes", node), "mesh");
+    size_t number = 0;
+    for (const json& primitive : file_.item("meshes", index).at("primitives")) {
+      const size_t own = number++;
       const size_t mode = file_.whole(primitive, "mode", kTriangles);
       const json& attributes = primitive.at("attributes");
       if (mode < kTriangles || !attributes.contains("POSITION")) continue;
@@ -129,6 +117,7 @@ class GltfReader {
       const size_t first = mesh_.positions.size();
       addVertices(attributes, transform);
       addTriangles(primitive, mode, first, glm::determinant(glm::dmat3(transform)) < 0);
+      parts_.push_back({node, index, own, first, mesh_.positions.size() - first});
       const size_t most = kMostCopied + file_.bytesRead();
       if (mesh_.positions.size() > most || mesh_.triangles.size() > most)
         file_.fail("at most " + std::to_string(kMostCopied) + " copied triangles and vertices", "more",
@@ -180,6 +169,7 @@ class GltfReader {
 
   GltfFile file_;
   Mesh mesh_;
+  std::vector<GltfPart> parts_;
   std::vector<bool> visited_;
 };
 
@@ -194,7 +184,7 @@ std::string shortText(std::string text) {
 
 }  // namespace
 
-Mesh readGltf(std::string_view bytes, const std::filesystem::path& path) {
+GltfModel readGltf(std::string_view bytes, const std::filesystem::path& path) {
   try {
     return GltfReader(bytes, path).read();
   } catch (const json::exception& e) {

@@ -51,6 +51,7 @@ double component(ByteCursor& cursor, size_t type, bool normalized) {
 
 size_t componentsOf(const std::string& type) {
   if (type == "SCALAR") return 1;
+  if (type == "MAT4") return 16;
   if (type.size() == 4 && type.starts_with("VEC") && type[3] >= '2' && type[3] <= '4')
     return static_cast<size_t>(type[3] - '0');
   return 0;

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "lychnite/mesh/mesh.h"
+#include "mesh/animation_data.h"
 
 namespace lychnite {
 
@@ -25,6 +26,10 @@ Mesh read3ds(std::string_view bytes, const std::string& where);
 
 /// glTF 2.0, text or binary by content; buffers beside the file are read relative to it. (tinygltf 2.7 reads
 /// past the end of a cut-off BIN chunk and copies that chunk for every buffer that a file declares.)
-Mesh readGltf(std::string_view bytes, const std::filesystem::path& path);
+struct GltfModel {
+  Mesh mesh;                               ///< at rest: nodes, joints and weights as the file has them
+  std::optional<AnimationData> animation;  ///< for files with skins, morph targets or clips
+};
+GltfModel readGltf(std::string_view bytes, const std::filesystem::path& path);
 
 }  // namespace lychnite
