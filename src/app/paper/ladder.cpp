@@ -75,6 +75,7 @@ class Rung {
     const ToneMapping tone{.exposure = exposureFor(columns_[0][0])};
     Gallery gallery{.columns = int(sizes.size()) + 1, .cellWidth = 100};
     for (size_t m = 0; m <= methods_.size(); ++m) {
+      if (m > 0 && !methods_[m - 1].inStrip) continue;
       const std::string method = m == 0 ? "walk" : methods_[m - 1].name;
       gallery.pictures.push_back({"", "", method, ""});
       for (size_t s = 0; s < sizes.size(); ++s) {

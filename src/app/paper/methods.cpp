@@ -11,11 +11,15 @@
 namespace lychnite::paper {
 
 std::vector<MethodColumn> comparedMethods() {
-  return {{.name = "fixed", .label = "fixed", .method = Method::kFixed, .style = 5},
+  return {{.name = "fixed", .label = "fixed", .method = Method::kFixed, .style = 5, .inStrip = false},
           {.name = "adaptive", .label = "adaptive", .method = Method::kAdaptive, .style = 1},
           {.name = "matched", .label = "matched", .method = Method::kMatched, .style = 2},
           {.name = "volume", .label = "volume", .method = Method::kVolume, .style = 3},
-          {.name = "hierarchical", .label = "hierarchical", .method = Method::kHierarchical, .style = 4}};
+          {.name = "hierarchical",
+           .label = "hierarchical",
+           .method = Method::kHierarchical,
+           .style = 4,
+           .inStrip = false}};
 }
 
 Truth truthOf(Studio& studio, const std::string& name, const Scene& scene, const RenderSettings& settings) {

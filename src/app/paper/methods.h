@@ -13,7 +13,8 @@ struct MethodColumn {
   std::string label;  ///< as shown
   Method method = Method::kMatched;
   LatticeConstants lattice;
-  int style = 0;  ///< of its lines in charts
+  int style = 0;        ///< of its lines in charts
+  bool inStrip = true;  ///< of the size ladder
 };
 
 /// fixed, adaptive, matched, volume, hierarchical.

@@ -27,6 +27,8 @@ figcaption { max-width: 46rem; font-size: .93rem; color: #333; margin-top: .6rem
 .grid { display: grid; gap: .5rem .5rem; }
 .cell img { display: block; width: 100%; height: auto; background: #000; }
 .cell.drawing img { background: none; }
+.cell img { outline: 1px solid #e2e2e2; outline-offset: -1px; }
+.cell.drawing img { outline: none; }
 .label { font-size: .84rem; line-height: 1.3; margin: .3rem 0 .2rem; }
 .detail { color: #666; font-variant-numeric: tabular-nums; }
 .differs { border-left: 3px solid #b9c6d2; padding-left: .9rem; color: #333; font-size: .95rem; }

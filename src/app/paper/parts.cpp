@@ -11,6 +11,7 @@ std::span<const Part> parts() {
       {"fig7", "Figure 7: the methods at three sizes", 1, 60, figure7Steps, makeFigure7},
       {"fig8", "Figure 8: the methods at three sizes, with another fixed pattern", 1, 70, figure8Steps,
        makeFigure8},
+      {"table1", "Table 1: frames per second", 1, 10, speedSteps, makeSpeed},
       {"ladder", "From half a millimetre to a metre", 1, 100, ladderSteps, makeLadder},
       {"storage", "Storage: bytes of the map", 1, 1, storageSteps, makeStorage},
   };

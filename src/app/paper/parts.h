@@ -32,6 +32,8 @@ int figure7Steps(const Studio&);
 void makeFigure7(Studio&, Report&);
 int figure8Steps(const Studio&);
 void makeFigure8(Studio&, Report&);
+int speedSteps(const Studio&);
+void makeSpeed(Studio&, Report&);  ///< Table 1
 int ladderSteps(const Studio&);
 void makeLadder(Studio&, Report&);  ///< sizes in a strip, error against size
 int storageSteps(const Studio&);
