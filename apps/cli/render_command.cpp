@@ -317,8 +317,8 @@ void addMethodFlags(CLI::App& command, Flags& flags) {
   command.add_option("--interpolation", flags.interpolation,
                      "matched: interpolate where neighbours differ less (8%; 0 evaluates every pixel)");
   command.add_option("--tolerance", flags.tolerance, "dipole: relative error to refine to (0.5%)");
-  command.add_option("--time", flags.time, "walk: stop after this time (60s, 2min)");
-  command.add_option("--noise", flags.noise, "walk: stop at this relative noise (2%)");
+  command.add_option("--time", flags.time, "walk, volume: stop after this time (60s, 2min)");
+  command.add_option("--noise", flags.noise, "walk, volume: stop at this relative noise (2%)");
   command.add_option("--resume", flags.resume, "walk: go on from this EXR of the same scene");
   command.add_option("--seed", flags.seed, "of the random numbers (1)")->check(CLI::NonNegativeNumber);
   command.add_option("--threads", flags.threads, "CPU threads, 0 = all cores");

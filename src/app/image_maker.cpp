@@ -53,6 +53,7 @@ Image ImageMaker::renderVolume(const Scene& scene, const RenderSettings& setting
     logTo(options_.log, LogLevel::kWarning, "volume: " + obstacle + "; rendered by matched instead");
     RenderSettings instead = settings;
     instead.method = Method::kMatched;
+    std::erase(instead.aovs, "stderr");
     lastWasRealTime_ = true;
     Image image = renderRealTime(scene, instead, progress);
     image.metadata["fallback"] = "matched: " + obstacle;

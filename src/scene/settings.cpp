@@ -109,8 +109,8 @@ void validate(const RenderSettings& settings) {
   for (const std::string& aov : settings.aovs) {
     if (std::find(known.begin(), known.end(), aov) == known.end())
       refuse("aov", joined(known), fmt::format("'{}'", aov), suggestion(aov, known));
-    if (aov == "stderr" && settings.method != Method::kWalk)
-      refuse("aov", "a method with noise (walk) for 'stderr'",
+    if (aov == "stderr" && settings.method != Method::kWalk && settings.method != Method::kVolume)
+      refuse("aov", "a method with noise (walk, volume) for 'stderr'",
              fmt::format("'{}'", methodName(settings.method)));
     if (aov == "lights" && (isReference(settings.method) || settings.method == Method::kVolume))
       refuse("aov", "a real-time method for 'lights'", fmt::format("'{}'", methodName(settings.method)));

@@ -83,7 +83,8 @@ RayLight unitPower(const RayLight& light) {
 Traced traceLight(const World& world, const std::vector<Emission>& emission, const RayLight& light,
                   int collisions, uint64_t seed, int pass) {
   Traced result;
-  for (const auto& body : world.bodies) result.deposits.push_back(body ? Deposits(*body) : Deposits());
+  for (auto& half : result.deposits)
+    for (const auto& body : world.bodies) half.push_back(body ? Deposits(*body) : Deposits());
   for (size_t object = 0; object < world.bodies.size(); ++object) {
     if (!world.bodies[object]) continue;
     Pass one{world, emission[object], unitPower(light), object, collisions, seed, pass, {}};
@@ -91,15 +92,16 @@ Traced traceLight(const World& world, const std::vector<Emission>& emission, con
     Rng shifts(seed, uint64_t(pass));
     for (float& s : one.shift) s = pass == 0 ? 0 : shifts.uniform();
     const size_t count = emission[object].points().size(), blocks = (count + kBlock - 1) / kBlock;
-    std::vector<std::vector<Tracer::Record>> records(blocks);
-    std::vector<Tally> tallies(blocks);
-    tbb::parallel_for(size_t(0), blocks, [&](size_t b) {
+    std::vector<std::vector<Tracer::Record>> records(2 * blocks);
+    std::vector<Tally> tallies(2 * blocks);
+    tbb::parallel_for(size_t(0), 2 * blocks, [&](size_t b) {
       Tracer tracer(world, records[b]);
-      for (size_t i = b * kBlock; i < std::min(count, (b + 1) * kBlock); ++i) one.follow(tracer, i);
+      const size_t begin = b / 2 * kBlock + b % 2;
+      for (size_t i = begin; i < std::min(count, (b / 2 + 1) * kBlock); i += 2) one.follow(tracer, i);
       tallies[b] = tracer.tally();
     });
-    for (size_t b = 0; b < blocks; ++b) {
-      collect(records[b], result.deposits);
+    for (size_t b = 0; b < 2 * blocks; ++b) {
+      collect(records[b], result.deposits[b % 2]);
       result.tally += tallies[b];
     }
   }

@@ -26,8 +26,8 @@ class Emission {
 /// What a light of power 1 (irradiance, or intensity in scene units) leaves in each body: pass number `pass`
 /// of photons. Each pass has its own random numbers, always the same.
 struct Traced {
-  std::vector<Deposits> deposits;
-  Tally tally;
+  std::vector<Deposits> deposits[2];  ///< of every other photon
+  Tally tally;                        ///< of all
 };
 Traced traceLight(const World& world, const std::vector<Emission>& emission, const RayLight& light,
                   int collisions, uint64_t seed, int pass);

@@ -17,9 +17,14 @@ namespace {
 
 constexpr uint64_t kSinglePasses = 16;
 
-/// Radiosity of all orders and radiance of order two and up, means over a pixel.
+/// Radiosity of all orders, radiance of order two and up and its standard error, means over a pixel.
 struct PixelLight {
-  glm::vec3 radiosity{0}, multiple{0};
+  glm::vec3 radiosity{0}, multiple{0}, error{0};
+  void add(const PixelLight& other, float share) {
+    radiosity += other.radiosity * share;
+    multiple += other.multiple * share;
+    error += other.error * share;
+  }
 };
 
 /// Looks up the light of pixels. Where a surface turns away from the eye or ends, a pixel spans much of it:
@@ -36,25 +41,36 @@ class Looker {
     const int column = int(begin->pixel) % camera_.width, row = int(begin->pixel) / camera_.width;
     PixelLight sum;
     for (int j = 0; j < kRaster; ++j)
-      for (int i = 0; i < kRaster; ++i) {
-        const glm::dvec3 direction =
-            camera_.direction(column + (i + 0.5) / kRaster, row + (j + 0.5) / kRaster);
-        const RayHit hit = rays_.nearest(glm::vec3(camera_.position), glm::vec3(direction));
-        if (!hit) continue;
-        const glm::vec3 view(-direction);
-        glm::vec3 normal = rays_.mesh(hit.object).shadingNormal(hit);
-        if (glm::dot(normal, view) < 1e-3f) normal = hit.normal;
-        const PixelLight one = at(hit, normal, view);
-        sum.radiosity += one.radiosity;
-        sum.multiple += one.multiple;
-      }
-    constexpr float kEach = 1.0f / (kRaster * kRaster);
-    return {sum.radiosity * kEach, sum.multiple * kEach};
+      for (int i = 0; i < kRaster; ++i) addPart(column, row, i, j, sum);
+    return sum;
   }
 
  private:
   static constexpr float kSteep = 0.45f;  // cosine to the eye
-  static constexpr int kRaster = 4;
+  static constexpr int kRaster = 4;       // parts of a pixel each way, one look at the light each
+  static constexpr int kCoverage = 2;     // rays of a part each way, that tell how much of it is covered
+
+  /// Part (i, j) of a pixel, weighted by its share.
+  void addPart(int column, int row, int i, int j, PixelLight& sum) {
+    constexpr int kSide = kRaster * kCoverage, kRays = kCoverage * kCoverage;
+    RayHit middle;
+    glm::vec3 view(0);
+    int hits = 0;
+    for (int n = 0; n < kRays; ++n) {
+      const double x = (i * kCoverage + n % kCoverage + 0.5) / kSide;
+      const double y = (j * kCoverage + n / kCoverage + 0.5) / kSide;
+      const glm::vec3 direction(camera_.direction(column + x, row + y));
+      const RayHit hit = rays_.nearest(glm::vec3(camera_.position), direction);
+      if (!hit) continue;
+      // One of them stands for all, another one in each part, so that no side is preferred.
+      if (hits == 0 || n == (i + 2 * j) % kRays) middle = hit, view = -direction;
+      ++hits;
+    }
+    if (hits == 0) return;
+    glm::vec3 normal = rays_.mesh(middle.object).shadingNormal(middle);
+    if (glm::dot(normal, view) < 1e-3f) normal = middle.normal;
+    sum.add(at(middle, normal, view), float(hits) / (kSide * kSide));
+  }
 
   PixelLight at(const RayHit& hit, const glm::vec3& normal, const glm::vec3& view) {
     if (rays_.opaque(hit.object)) return {};
@@ -65,7 +81,10 @@ class Looker {
     Gather::weigh(*body.shape, body.toLocal(hit.position), body.turnBack * normal, cell, weights_);
     const double cosO = glm::clamp(double(glm::dot(normal, view)), 0.0, 1.0);
     const auto lobe = float(exitLobe(cosO, double(body.medium.eta)));
-    return {mean(weights_, light_.all[object]), lobe * mean(weights_, light_.multiple[object])};
+    const auto meanOf = [&](const std::vector<std::vector<Lanes>>& part) {
+      return part[object].empty() ? glm::vec3(0) : glm::max(mean(weights_, part[object]), glm::vec3(0));
+    };
+    return {meanOf(light_.all), lobe * meanOf(light_.multiple), lobe * meanOf(light_.error)};
   }
 
   const RayScene& rays_;
@@ -100,13 +119,14 @@ Image volumePicture(const RayScene& rays, const World& world, const NodeLight& l
   const CameraReceivers receivers = findReceivers(rays, settings.width, settings.height);
   const size_t pixels = receivers.covered.size();
   PictureParts parts;
-  std::vector<glm::vec3> radiosity(pixels, glm::vec3(0));
-  if (settings.components.multiple || settings.wants("radiosity")) {
+  std::vector<glm::vec3> radiosity(pixels, glm::vec3(0)), error = radiosity;
+  if (settings.components.multiple || settings.wants("radiosity") || settings.wants("stderr")) {
     const auto each = lightPixels(rays, world, light, receivers);
     parts.multiple.assign(pixels, glm::vec3(0));
     for (size_t i = 0; i < each.size(); ++i) {
       radiosity[i] = each[i].radiosity;
       parts.multiple[i] = each[i].multiple;
+      error[i] = each[i].error;
     }
     if (!settings.components.multiple) parts.multiple.clear();
   }
@@ -115,6 +135,7 @@ Image volumePicture(const RayScene& rays, const World& world, const NodeLight& l
   if (settings.components.surface) parts.surface = surfacePart(rays, receivers);
   Image image = assemblePicture(rays, receivers, settings, parts);
   if (settings.wants("radiosity")) addLayer(image, "radiosity", radiosity);
+  if (settings.wants("stderr")) addLayer(image, "stderr", error);
   return image;
 }
 

@@ -10,8 +10,8 @@ namespace lychnite::volume {
 /// Flux that leaves at the nodes of each body, times power over the square of the body's size: over the
 /// nodes' areas it is radiosity.
 struct NodeLight {
-  const std::vector<std::vector<Lanes>>& all;
-  const std::vector<std::vector<Lanes>>& multiple;
+  std::vector<std::vector<Lanes>> all, multiple;  ///< orders of scattering: all, two and up
+  std::vector<std::vector<Lanes>> error;          ///< standard error of `multiple`; empty where not known
 };
 
 Image volumePicture(const RayScene& rays, const World& world, const NodeLight& light,

@@ -3,17 +3,23 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 namespace lychnite::volume {
 
 namespace {
 
-constexpr float kWidth = 0.6f, kReach = 1.3f;  // of the kernel, in voxels: standard deviation, cut
-constexpr float kFacing = 0.2f;                // least cosine between normals of one surface
-constexpr float kPerCosine = 20;               // weights fall by e at 18 degrees between normals
+constexpr float kWidth = 0.6f,
+                kReach = 1.3f;    // of the kernel, in voxels: standard deviation, cut
+constexpr float kFacing = 0.2f;   // least cosine between normals of one surface
+constexpr float kPerCosine = 20;  // weights fall by e at 18 degrees between normals
 constexpr int kScalings = 8;
+constexpr double kLeastSeen = 0.02;  // of the kernel's response: shorter waves are filtered as this one
+constexpr int kMostDegree = 32;
+constexpr float kTail = 0.005f;  // of a filter's coefficients, left out together
 constexpr size_t kBlock = 1024;
 
 template <class Body>
@@ -77,29 +83,92 @@ Smoother::Smoother(const Grid& grid, const Surface& surface) : surface_(surface)
   if (area > 0) variance_ = 0.5 * spread / area;  // of each of the two directions
 }
 
-/// to = (1 - share) from + share * smoothed from.
-void Smoother::step(const std::vector<Lanes>& from, std::vector<Lanes>& to, float share) const {
-  const auto& nodes = surface_.nodes();
-  inBlocks(nodes.size(), [&](size_t, size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) {
-      if (first_[i] == first_[i + 1]) {
-        to[i] = from[i];
-        continue;
-      }
-      Lanes sum{0, 0, 0, 0};
-      for (uint32_t p = first_[i]; p < first_[i + 1]; ++p) sum += pairs_[p].weight * from[pairs_[p].to];
-      to[i] = (1 - share) * from[i] + share * nodes[i].area * sum;
-    }
-  });
+Smoother::Filter Smoother::filter(const Response& response) const {
+  constexpr int kPoints = 128;
+  std::vector<Lanes> value(kPoints);
+  for (int j = 0; j < kPoints; ++j) {
+    const double x = std::max(kLeastSeen, std::cos(std::numbers::pi * (j + 0.5) / kPoints));
+    const double q = std::sqrt(-2 * std::log(x) / variance_);
+    for (int c = 0; c < 4; ++c) value[size_t(j)][c] = float(response(q, c % 3));
+  }
+  Filter coefficients(kMostDegree + 1, Lanes{0, 0, 0, 0});
+  for (int k = 0; k <= kMostDegree; ++k) {
+    Lanes& sum = coefficients[size_t(k)];
+    for (int j = 0; j < kPoints; ++j)
+      sum += value[size_t(j)] * float(std::cos(std::numbers::pi * k * (j + 0.5) / kPoints));
+    sum *= (k == 0 ? 1.0f : 2.0f) / kPoints;
+  }
+  float tail = 0;
+  while (coefficients.size() > 2) {
+    const Lanes& last = coefficients.back();
+    tail += std::max({std::abs(last[0]), std::abs(last[1]), std::abs(last[2])});
+    if (tail > kTail) break;
+    coefficients.pop_back();
+  }
+  return coefficients;
 }
 
-std::vector<Lanes> Smoother::smoothed(const std::vector<Lanes>& flux, double sigma) const {
-  std::vector<Lanes> now = flux, next(flux.size());
-  for (double steps = sigma * sigma / variance_; steps > 1e-3; steps -= 1) {
-    step(now, next, float(std::min(1.0, steps)));
+/// Chebyshev's recurrence T(n + 1) = 2 S T(n) - T(n - 1) for several fluxes
+/// side by side, so that the kernel S is read once for all.
+template <size_t kTasks>
+std::vector<std::vector<std::vector<Lanes>>> Smoother::filteredTogether(
+    const std::vector<Task>& tasks) const {
+  using Row = std::array<Lanes, kTasks>;
+  const auto& nodes = surface_.nodes();
+  const size_t n = nodes.size();
+  std::vector<std::vector<std::vector<Lanes>>> result(kTasks);
+  std::vector<Row> before(n), now(n), next(n);
+  size_t terms = 2;
+  for (size_t t = 0; t < kTasks; ++t) {
+    for (const Filter& f : tasks[t].filters) terms = std::max(terms, f.size());
+    result[t].assign(tasks[t].filters.size(), std::vector<Lanes>(n, Lanes{0, 0, 0, 0}));
+    for (size_t i = 0; i < n; ++i) before[i][t] = tasks[t].flux[i];
+  }
+  const auto add = [&](size_t term, size_t i, const Row& row) {
+    for (size_t t = 0; t < kTasks; ++t)
+      for (size_t f = 0; f < tasks[t].filters.size(); ++f)
+        if (term < tasks[t].filters[f].size()) result[t][f][i] += tasks[t].filters[f][term] * row[t];
+  };
+  const auto spread = [&](const std::vector<Row>& from, size_t i) {
+    if (first_[i] == first_[i + 1]) return from[i];
+    Row sum;
+    sum.fill(Lanes{0, 0, 0, 0});
+    for (uint32_t p = first_[i]; p < first_[i + 1]; ++p)
+      for (size_t t = 0; t < kTasks; ++t) sum[t] += pairs_[p].weight * from[pairs_[p].to][t];
+    for (Lanes& lanes : sum) lanes *= nodes[i].area;
+    return sum;
+  };
+  inBlocks(n, [&](size_t, size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      add(0, i, before[i]);
+      add(1, i, now[i] = spread(before, i));
+    }
+  });
+  for (size_t term = 2; term < terms; ++term) {
+    inBlocks(n, [&](size_t, size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) {
+        next[i] = spread(now, i);
+        for (size_t t = 0; t < kTasks; ++t) next[i][t] = 2 * next[i][t] - before[i][t];
+        add(term, i, next[i]);
+      }
+    });
+    std::swap(before, now);
     std::swap(now, next);
   }
-  return now;
+  return result;
+}
+
+std::vector<std::vector<std::vector<Lanes>>> Smoother::filtered(const std::vector<Task>& tasks) const {
+  switch (tasks.size()) {
+    case 1:
+      return filteredTogether<1>(tasks);
+    case 2:
+      return filteredTogether<2>(tasks);
+    case 3:
+      return filteredTogether<3>(tasks);
+    default:
+      return filteredTogether<4>(tasks);
+  }
 }
 
 }  // namespace lychnite::volume

@@ -37,6 +37,7 @@ class Surface {
   const std::vector<Sample>& samples() const { return samples_; }
   const std::vector<Node>& nodes() const { return nodes_; }
   double area() const { return area_; }
+  const Grid& grid() const { return grid_; }
 
   /// The sample at barycentric weights (u, v) of a triangle's second and third corner.
   uint32_t sampleAt(uint32_t triangle, float u, float v) const;

@@ -14,6 +14,7 @@
 #include "volume/exchange.h"
 #include "volume/gather.h"
 #include "volume/picture.h"
+#include "volume/radiosity.h"
 
 namespace lychnite {
 
@@ -23,10 +24,7 @@ namespace {
 
 // Share of lines through a mesh along which inside may be undefined: pinholes, slivers of self-intersection.
 constexpr double kUndefined = 0.01;
-// Standard deviation of the smoothing on the surface, in voxels: after the first pass of photons and at
-// least.
-constexpr double kWidth = 1.6, kLeastWidth = 0.7;
-constexpr double kBandWave = 1.9;       // times 1/width: where the band between two widths has its peak
+constexpr int kMostPasses = 10000;
 constexpr int kExchangeCollisions = 2;  // of light that meets another surface, before the solver takes over
 
 double since(std::chrono::steady_clock::time_point start) {
@@ -37,11 +35,12 @@ double since(std::chrono::steady_clock::time_point start) {
 struct LightField {
   RayLight light;  ///< traced for
   int passes = 0;
-  std::vector<Deposits> deposits;  ///< sums over the passes
+  /// Two halves, of independent photons, of all bodies: sums over the passes.
+  std::vector<Deposits> deposits[2];
   Tally tally;
-  std::vector<std::vector<Lanes>> phi, phiBack;     ///< solutions, kept as first guesses
-  std::vector<std::vector<float>> entering;         ///< flux that enters each node, per body
-  std::vector<std::vector<Lanes>> first, multiple;  ///< flux that leaves at each node, per body
+  std::vector<std::vector<Lanes>> phi[2], phiBack;        ///< solutions, kept as first guesses
+  std::vector<std::vector<float>> entering;               ///< flux that enters each node, per body
+  std::vector<std::vector<Lanes>> first[2], multiple[2];  ///< flux that leaves at each node, per body
   Rgb absorbed{0};
 };
 
@@ -99,7 +98,8 @@ struct VolumeSolver::Impl {
   void solve(LightField& field);
   void exchangeLight(LightField& field);
   void tell();
-  std::vector<Lanes> flux(int object, Orders orders) const;
+  NodeFlux flux(int object, Orders orders) const;
+  void converge(VolumeSolver& solver, const RenderSettings& wish, const Progress& progress);
 };
 
 double VolumeSolver::Impl::undefinedOf(const std::shared_ptr<const Mesh>& mesh) {
@@ -157,11 +157,12 @@ void VolumeSolver::Impl::trace(LightField& field) {
   Traced traced = traceLight(world, emission, field.light, settings.collisions, settings.seed, field.passes);
   if (field.passes == 0) {
     field.entering = enteringFlux(world, field.light);
-    field.deposits = std::move(traced.deposits);
+    for (int half : {0, 1}) field.deposits[half] = std::move(traced.deposits[half]);
     field.tally = traced.tally;
   } else {
-    for (size_t i = 0; i < field.deposits.size(); ++i)
-      if (world.bodies[i]) field.deposits[i] += traced.deposits[i];
+    for (int half : {0, 1})
+      for (size_t i = 0; i < world.bodies.size(); ++i)
+        if (world.bodies[i]) field.deposits[half][i] += traced.deposits[half][i];
     field.tally += traced.tally;
   }
   ++field.passes;
@@ -173,25 +174,28 @@ void VolumeSolver::Impl::trace(LightField& field) {
 void VolumeSolver::Impl::solve(LightField& field) {
   const auto start = std::chrono::steady_clock::now();
   const size_t bodies = world.bodies.size();
-  field.phi.resize(bodies);
   field.phiBack.resize(bodies);
-  field.first.assign(bodies, {});
-  field.multiple.assign(bodies, {});
   field.absorbed = field.tally.absorbed / double(field.passes);
-  const float each = 1 / float(field.passes);
-  for (size_t i = 0; i < bodies; ++i) {
-    if (!world.bodies[i]) continue;
-    const DiffusionSystem& system = world.bodies[i]->system;
-    std::vector<Lanes> Q = field.deposits[i].source;
-    for (Lanes& q : Q) q *= each;
-    stats.iterations += system.solve(Q, field.phi[i], settings.tolerance).iterations;
-    system.exits(field.phi[i], field.multiple[i]);
-    field.first[i] = field.deposits[i].first;
-    for (size_t n = 0; n < field.first[i].size(); ++n) {
-      field.first[i][n] *= each;
-      field.multiple[i][n] += field.deposits[i].later[n] * each;
+  const float each = 2 / float(field.passes);
+  for (int half : {0, 1}) {
+    field.phi[half].resize(bodies);
+    field.first[half].assign(bodies, {});
+    field.multiple[half].assign(bodies, {});
+    for (size_t i = 0; i < bodies; ++i) {
+      if (!world.bodies[i]) continue;
+      const DiffusionSystem& system = world.bodies[i]->system;
+      std::vector<Lanes> Q = field.deposits[half][i].source;
+      for (Lanes& q : Q) q *= each;
+      if (half == 1 && field.phi[1][i].empty()) field.phi[1][i] = field.phi[0][i];
+      stats.iterations += system.solve(Q, field.phi[half][i], settings.tolerance).iterations;
+      system.exits(field.phi[half][i], field.multiple[half][i]);
+      field.first[half][i] = field.deposits[half][i].first;
+      for (size_t n = 0; n < field.first[half][i].size(); ++n) {
+        field.first[half][i][n] *= each;
+        field.multiple[half][i][n] += field.deposits[half][i].later[n] * each;
+      }
+      field.absorbed += 0.5 * system.absorbed(field.phi[half][i]);
     }
-    field.absorbed += system.absorbed(field.phi[i]);
   }
   stats.solveMs += since(start);
   exchangeLight(field);
@@ -202,9 +206,11 @@ void VolumeSolver::Impl::solve(LightField& field) {
 void VolumeSolver::Impl::exchangeLight(LightField& field) {
   if (exchange->empty()) return;
   const auto start = std::chrono::steady_clock::now();
-  std::vector<std::vector<Lanes>> leaving = field.multiple;
+  std::vector<std::vector<Lanes>> leaving = field.multiple[0];
   for (size_t i = 0; i < leaving.size(); ++i)
-    for (size_t n = 0; n < leaving[i].size(); ++n) leaving[i][n] += field.first[i][n];
+    for (size_t n = 0; n < leaving[i].size(); ++n)
+      leaving[i][n] = 0.5f * (field.multiple[0][i][n] + field.multiple[1][i][n] + field.first[0][i][n] +
+                              field.first[1][i][n]);
   Tally tally;
   const int collisions = std::min(settings.collisions, kExchangeCollisions);
   const std::vector<Deposits> back = exchange->send(world, leaving, collisions, settings.seed, tally);
@@ -221,53 +227,43 @@ void VolumeSolver::Impl::exchangeLight(LightField& field) {
     Lanes series{1, 1, 1, 1};
     for (int c = 0; c < 3; ++c)
       if (before[c] > 0) series[c] = 1 / (1 - std::min(0.9f, after[c] / before[c]));
-    for (size_t n = 0; n < exits.size(); ++n) field.multiple[i][n] += exits[n] * series;
+    for (size_t n = 0; n < exits.size(); ++n)
+      for (int half : {0, 1}) field.multiple[half][i][n] += exits[n] * series;
   }
   stats.exchangeMs += since(start);
 }
 
-std::vector<Lanes> VolumeSolver::Impl::flux(int object, Orders orders) const {
+NodeFlux VolumeSolver::Impl::flux(int object, Orders orders) const {
   const Body& body = *world.bodies[size_t(object)];
   const std::vector<Lanes> none(body.shape->surface.nodes().size(), Lanes{0, 0, 0, 0});
-  std::vector<Lanes> first = none, multiple = none, entering = none;
-  Lanes sums[2] = {{0, 0, 0, 0}, {0, 0, 0, 0}};
+  NodeEstimate estimate{{none, none}, none};
+  Lanes first{0, 0, 0, 0}, entering{0, 0, 0, 0};
   for (size_t l = 0; l < fields.size(); ++l) {
     const Rgb power = rays->lights()[l].power / double(body.size * body.size);
     const Lanes p{float(power.x), float(power.y), float(power.z), 0};
     const LightField& field = fields[l];
     for (size_t n = 0; n < none.size(); ++n) {
-      first[n] += p * field.first[size_t(object)][n];
-      multiple[n] += p * field.multiple[size_t(object)][n];
-      entering[n] += p * field.entering[size_t(object)][n];
-      sums[0] += p * field.first[size_t(object)][n];
-      sums[1] += p * field.entering[size_t(object)][n];
+      for (int half : {0, 1}) {
+        const Lanes one = p * field.first[half][size_t(object)][n];
+        Lanes& sum = estimate.half[half][n];
+        if (orders != Orders::kMultiple) sum += one;
+        if (orders != Orders::kFirst) sum += p * field.multiple[half][size_t(object)][n];
+        first += 0.5f * one;
+      }
+      estimate.entering[n] += p * field.entering[size_t(object)][n];
+      entering += p * field.entering[size_t(object)][n];
     }
   }
   const double h = body.shape->grid.side();
-  const Smoother& smoother = body.shape->smoother;
-  std::vector<Lanes> sum = none;
-  if (orders != Orders::kMultiple) sum = first;
-  if (orders != Orders::kFirst)
-    for (size_t n = 0; n < sum.size(); ++n) sum[n] += multiple[n];
-  const double w =
-      std::clamp(kWidth * std::pow(double(std::max(1, stats.passes)), -0.25), kLeastWidth, kWidth);
-  sum = smoother.smoothed(sum, w);
-  double before = 0;
-  for (double next : {0.25 * w, 0.5 * w, w}) {
-    std::vector<Lanes> wider = smoother.smoothed(entering, std::sqrt(next * next - before * before));
-    const double q = kBandWave / (next * h);
-    Lanes response{0, 0, 0, 0};
-    for (int c = 0; c < 3; ++c) {
-      const Diffusion& d = body.system.medium().channel[c];
-      const double r1 = sums[1][c] > 0 ? double(sums[0][c] / sums[1][c]) * std::exp(-q / d.sigma_tp) : 0;
-      const double all = std::max(r1, d.response(q));
-      response[c] = float(orders == Orders::kAll ? all : orders == Orders::kFirst ? r1 : all - r1);
-    }
-    for (size_t n = 0; n < sum.size(); ++n) sum[n] += response * (entering[n] - wider[n]);
-    entering = std::move(wider);
-    before = next;
-  }
-  return sum;
+  estimate.photons = settings.photons * stats.passes * h * h / body.shape->surface.area();
+  const auto response = [&](double q, int c) {
+    const Diffusion& d = body.system.medium().channel[c];
+    const double share = entering[c] > 0 ? double(first[c] / entering[c]) : 0;
+    const double one = share * std::exp(-q / (h * d.sigma_tp)), all = std::max(one, d.response(q / h));
+    return orders == Orders::kAll ? all : orders == Orders::kFirst ? one : all - one;
+  };
+  if (stats.passes < 2) return cleanedQuickly(body.shape->smoother, estimate, response);
+  return cleaned(body.shape->smoother, body.shape->surface, estimate, response);
 }
 
 /// Sums up the statistics of all lights.
@@ -295,12 +291,13 @@ void VolumeSolver::Impl::tell() {
     unscattered += field.tally.unscattered * each;
     lost += field.tally.lost * each;
     absorbed += field.absorbed * power;
-    for (size_t i = 0; i < field.phi.size(); ++i) {
-      if (!world.bodies[i]) continue;
-      std::vector<Lanes> exits;
-      world.bodies[i]->system.exits(field.phi[i], exits);
-      for (const Lanes& e : exits) left += Rgb(e[0], e[1], e[2]) * power;
-    }
+    for (const auto& phi : field.phi)
+      for (size_t i = 0; i < phi.size(); ++i) {
+        if (!world.bodies[i]) continue;
+        std::vector<Lanes> exits;
+        world.bodies[i]->system.exits(phi[i], exits);
+        for (const Lanes& e : exits) left += 0.5 * Rgb(e[0], e[1], e[2]) * power;
+      }
   }
   entered = glm::max(entered, Rgb(1e-300));
   stats.left = left / entered;
@@ -367,17 +364,61 @@ void VolumeSolver::refine(const Progress& progress) {
 std::vector<glm::vec3> VolumeSolver::vertexRadiosity(int object, Orders orders) const {
   auto& gather = impl_->gathers[size_t(object)];
   if (!gather) gather = std::make_unique<Gather>(*impl_->world.bodies[size_t(object)]->shape);
-  return gather->vertices(impl_->flux(object, orders));
+  return gather->vertices(impl_->flux(object, orders).flux);
+}
+
+double VolumeSolver::noise() const {
+  if (impl_->stats.passes < 2) return 0;
+  double squares = 0, sum = 0, area = 0;
+  for (size_t i = 0; i < impl_->world.bodies.size(); ++i) {
+    if (!impl_->world.bodies[i]) continue;
+    const auto& nodes = impl_->world.bodies[i]->shape->surface.nodes();
+    const NodeFlux light = impl_->flux(int(i), Orders::kAll);
+    for (size_t n = 0; n < nodes.size(); ++n) {
+      if (!(nodes[n].area > 0)) continue;
+      for (int c = 0; c < 3; ++c) {
+        squares += double(light.variance[n][c] / nodes[n].area);
+        sum += double(light.flux[n][c]);
+      }
+      area += 3 * double(nodes[n].area);
+    }
+  }
+  return sum > 0 ? std::sqrt(squares * area) / sum : 0;
 }
 
 Image VolumeSolver::picture(const RenderSettings& settings, const Progress& progress) const {
-  std::vector<std::vector<Lanes>> all(impl_->world.bodies.size()), multiple(all.size());
-  for (size_t i = 0; i < all.size(); ++i) {
+  NodeLight light;
+  for (size_t i = 0; i < impl_->world.bodies.size(); ++i) {
+    for (auto* part : {&light.all, &light.multiple, &light.error}) part->emplace_back();
     if (!impl_->world.bodies[i]) continue;
-    all[i] = impl_->flux(int(i), Orders::kAll);
-    multiple[i] = impl_->flux(int(i), Orders::kMultiple);
+    const bool error = settings.wants("stderr");
+    if (settings.wants("radiosity")) light.all.back() = impl_->flux(int(i), Orders::kAll).flux;
+    if (!settings.components.multiple && !error) continue;
+    NodeFlux multiple = impl_->flux(int(i), Orders::kMultiple);
+    light.multiple.back() = std::move(multiple.flux);
+    light.error.back() = std::move(multiple.variance);
+    for (Lanes& e : light.error.back())
+      for (int c = 0; c < 3; ++c) e[c] = std::sqrt(e[c]);
   }
-  return volumePicture(*impl_->rays, impl_->world, {all, multiple}, settings, progress);
+  return volumePicture(*impl_->rays, impl_->world, light, settings, progress);
+}
+
+/// Passes of photons as asked for: a number, or until the noise or the time is up.
+void VolumeSolver::Impl::converge(VolumeSolver& solver, const RenderSettings& wish,
+                                  const Progress& progress) {
+  const auto start = std::chrono::steady_clock::now();
+  const bool openEnded = wish.noise > 0 || wish.timeLimit > 0;
+  const int most = openEnded ? kMostPasses : wish.passes;
+  int look = 2;  // the noise is a part of a pass's work to tell
+  while (stats.passes > 0 && stats.passes < most) {
+    if (wish.timeLimit > 0 && since(start) >= 1000 * wish.timeLimit) return;
+    if (wish.noise > 0 && stats.passes >= look) {
+      const double ratio = solver.noise() / wish.noise;
+      if (ratio <= 1) return;
+      look = stats.passes + std::clamp(int(stats.passes * (ratio * ratio - 1)), 1, stats.passes);
+    }
+    solver.refine(progress);
+  }
 }
 
 Image VolumeSolver::render(const Scene& scene, const RenderSettings& settings, const Progress& progress) {
@@ -386,9 +427,10 @@ Image VolumeSolver::render(const Scene& scene, const RenderSettings& settings, c
     const auto start = std::chrono::steady_clock::now();
     update(scene, {.cells = settings.cells, .collisions = settings.collisions, .seed = settings.seed},
            progress);
-    while (impl_->stats.passes > 0 && impl_->stats.passes < settings.passes) refine(progress);
+    impl_->converge(*this, settings, progress);
     Image image = picture(settings, progress);
     tellStats(impl_->stats, image);
+    if (impl_->stats.passes > 1) image.metadata["noise"] = fmt::format("{:.6g}", noise());
     image.metadata["seconds"] = fmt::format("{:.3f}", since(start) / 1000);
     return image;
   });

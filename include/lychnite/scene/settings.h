@@ -45,8 +45,8 @@ struct RenderSettings {
   int mapSize = 512;         ///< light-space map, 128..4096
   double samples = 16;       ///< walk: photons per pixel
   double tolerance = 0.005;  ///< dipole: relative error to refine to
-  double timeLimit = 0;      ///< walk: seconds, 0 = none
-  double noise = 0;          ///< walk: relative noise to stop at, 0 = none
+  double timeLimit = 0;      ///< walk, volume: seconds, 0 = none
+  double noise = 0;          ///< walk, volume: relative noise to stop at, 0 = none
   int cells = 64;            ///< volume: along each object's longest side, 8..192
   int collisions = 6;        ///< volume: traced before the diffusion equation takes over, 1..64
   int passes = 4;            ///< volume: of photons, 1..10000

@@ -64,12 +64,18 @@ class VolumeSolver {
   /// Radiosity of an object (translucent) at its mesh's vertices, from the last update, irradiance units.
   std::vector<glm::vec3> vertexRadiosity(int object, Orders orders) const;
 
+  /// Noise of the radiosity on all of the surface, as far as it is the photons': standard error over mean,
+  /// told by two halves of the photons. 0 before the second pass.
+  double noise() const;
+
   /// The picture of the last update: settings' size, components, aovs, seed; conventions of
-  /// renderReference(). `multiple` is order two and up; "radiosity" all orders.
+  /// renderReference(). `multiple` is order two and up; "radiosity" all orders; "stderr" that of `multiple`,
+  /// 0 before the second pass.
   Image picture(const RenderSettings& settings, const Progress& progress = {}) const;
 
-  /// update(), refine() up to settings.passes, and picture(), on settings.threads; with the statistics as
-  /// metadata "volume.*".
+  /// update(), refine() and picture(), on settings.threads; with the statistics as metadata "volume.*". As
+  /// many passes as settings.passes, or where they are given until settings.noise or settings.timeLimit is
+  /// reached.
   Image render(const Scene& scene, const RenderSettings& settings, const Progress& progress = {});
 
   const VolumeStats& stats() const;

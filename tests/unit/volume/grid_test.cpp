@@ -135,7 +135,9 @@ TEST(Smoother, ConservesFluxAndKeepsAConstantRadiosity) {
   std::vector<Lanes> constant, point(surface.nodes().size(), Lanes{0, 0, 0, 0});
   for (const auto& node : surface.nodes()) constant.push_back(Lanes{node.area, 2 * node.area, 0, 0});
   point[100] = Lanes{1, 0, 0, 0};
-  const auto same = smoother.smoothed(constant, 2), spread = smoother.smoothed(point, 2);
+  const auto gaussian = smoother.filter([](double q, int) { return std::exp(-0.5 * 4 * q * q); });
+  const auto out = smoother.filtered({{constant, {gaussian}}, {point, {gaussian}}});
+  const auto &same = out[0][0], &spread = out[1][0];
   double sum = 0;
   for (size_t i = 0; i < same.size(); ++i) {
     EXPECT_NEAR(same[i][0], constant[i][0], 0.02f * constant[i][0]);

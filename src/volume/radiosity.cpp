@@ -1,0 +1,189 @@
+#include "volume/radiosity.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <unordered_map>
+
+namespace lychnite::volume {
+
+namespace {
+
+// Standard deviations of the smoothing, voxels. The least is in proportion to
+// the photons' density to the power -1/4, from kLeastWidth to kWidest; so is
+// the only one of cleanedQuickly().
+constexpr size_t kWidths = 4;
+constexpr double kLeastWidth = 0.5, kWidest = 4, kWidthOfOne = 1.9;
+constexpr double kPhotonsOfOne = 8;  // per voxel's face, where it is kWidthOfOne
+constexpr float kBlock = 4;          // voxels: errors are averaged over 3 x 3 x 3 blocks of this side
+constexpr double kChoiceWidth = 2;   // voxels, by which the choice of widths is blended
+constexpr double kVarianceWidth = 2;
+
+using Field = std::vector<Lanes>;
+
+constexpr Lanes kZero{0, 0, 0, 0};
+
+double leastWidth(const NodeEstimate& estimate) {
+  return std::clamp(kWidthOfOne * std::pow(estimate.photons / kPhotonsOfOne, -0.25), kLeastWidth, kWidest);
+}
+
+Smoother::Response gaussian(double width) {
+  return [width](double q, int) { return std::exp(-0.5 * width * width * q * q); };
+}
+
+/// A Gaussian, and once more of what it leaves out (twicing: Stuetzle & Mittal
+/// 1979): unlike the Gaussian alone it keeps curvature.
+Smoother::Response twice(double width) {
+  return [width](double q, int) {
+    const double g = std::exp(-0.5 * width * width * q * q);
+    return g * (2 - g);
+  };
+}
+
+Smoother::Response product(const Smoother::Response& a, const Smoother::Response& b) {
+  return [&a, b](double q, int c) { return a(q, c) * b(q, c); };
+}
+
+/// Scaled so that flux is kept whatever the polynomial leaves out.
+Smoother::Filter conserving(Smoother::Filter filter) {
+  Lanes sum = kZero;
+  for (const Lanes& c : filter) sum += c;
+  for (Lanes& c : filter) c /= sum;
+  return filter;
+}
+
+/// What is left of each half without the half-space's model, smoothed by each
+/// width.
+struct Residuals {
+  Field model;
+  std::vector<Field> smooth[2];
+};
+
+Residuals residualsOf(const Smoother& smoother, const NodeEstimate& estimate,
+                      const Smoother::Response& response) {
+  const double least = leastWidth(estimate);
+  std::vector<Smoother::Filter> widths, modelled{smoother.filter(response)};
+  for (size_t w = 0; w < kWidths; ++w) {
+    const double width = least * std::pow(kWidest / least, double(w) / (kWidths - 1));
+    widths.push_back(conserving(smoother.filter(twice(width))));
+    modelled.push_back(smoother.filter(product(response, twice(width))));
+  }
+  auto out = smoother.filtered(
+      {{estimate.half[0], widths}, {estimate.half[1], widths}, {estimate.entering, modelled}});
+  for (size_t w = 0; w < kWidths; ++w)
+    for (size_t half : {0, 1})
+      for (size_t i = 0; i < out[half][w].size(); ++i) out[half][w][i] -= out[2][w + 1][i];
+  return {std::move(out[2][0]), {std::move(out[0]), std::move(out[1])}};
+}
+
+/// Expected square error of the mean of both halves for each width, up to what
+/// is the same for all, in units that add up over area: a smoothed half against
+/// the other as it is holds the bias and all of a half's noise, of which the
+/// mean has half.
+Field squareErrors(const Surface& surface, const NodeEstimate& estimate, const Residuals& residuals) {
+  const auto& nodes = surface.nodes();
+  Field error(nodes.size(), kZero);
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    if (!(nodes[i].area > 0)) continue;
+    for (size_t w = 0; w < kWidths; ++w) {
+      const Lanes &a = residuals.smooth[0][w][i], &b = residuals.smooth[1][w][i];
+      const Lanes ab = a + residuals.model[i] - estimate.half[1][i];
+      const Lanes ba = b + residuals.model[i] - estimate.half[0][i];
+      const Lanes s = 0.5f * (ab * ab + ba * ba) - 0.25f * (a - b) * (a - b);
+      error[i][int(w)] = (s[0] + s[1] + s[2]) / nodes[i].area;
+    }
+  }
+  return error;
+}
+
+/// Sums over all nodes nearby that face the same main way.
+Field sumsAround(const Grid& grid, const Surface& surface, const Field& values) {
+  const auto& nodes = surface.nodes();
+  const auto keyOf = [](const glm::ivec3& block, int way) {
+    return (((uint64_t(block.z) << 20 | uint64_t(block.y)) << 20 | uint64_t(block.x)) << 3) | uint64_t(way);
+  };
+  const auto placeOf = [&](size_t i) {
+    const glm::vec3 a = glm::abs(nodes[i].normal);
+    const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
+    const glm::ivec3 block(glm::floor(grid.voxels(nodes[i].position) / kBlock + 2.0f));
+    return std::pair(block, 2 * axis + (nodes[i].normal[axis] > 0 ? 1 : 0));
+  };
+  std::unordered_map<uint64_t, Lanes> blocks, wide;
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    const auto [block, way] = placeOf(i);
+    blocks.try_emplace(keyOf(block, way), kZero).first->second += values[i];
+  }
+  Field sums(nodes.size());
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    const auto [block, way] = placeOf(i);
+    const auto [entry, isNew] = wide.try_emplace(keyOf(block, way), kZero);
+    for (int n = 0; isNew && n < 27; ++n) {
+      const auto near = blocks.find(keyOf(block + glm::ivec3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1), way));
+      if (near != blocks.end()) entry->second += near->second;
+    }
+    sums[i] = entry->second;
+  }
+  return sums;
+}
+
+/// Each node's shares of the widths.
+Field choose(const Smoother& smoother, const Surface& surface, const Field& errors) {
+  const auto& nodes = surface.nodes();
+  Field choice(nodes.size(), kZero);
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    int best = 0;
+    for (int w = 1; w < int(kWidths); ++w)
+      if (errors[i][w] < errors[i][best]) best = w;
+    choice[i][best] = nodes[i].area;
+  }
+  auto blended =
+      smoother.filtered({{std::move(choice), {conserving(smoother.filter(gaussian(kChoiceWidth)))}}});
+  for (size_t i = 0; i < nodes.size(); ++i)
+    blended[0][0][i] = nodes[i].area > 0 ? blended[0][0][i] / nodes[i].area : kZero;
+  return std::move(blended[0][0]);
+}
+
+}  // namespace
+
+NodeFlux cleaned(const Smoother& smoother, const Surface& surface, const NodeEstimate& estimate,
+                 const Smoother::Response& response) {
+  Residuals residuals = residualsOf(smoother, estimate, response);
+  const Field share = choose(smoother, surface,
+                             sumsAround(surface.grid(), surface, squareErrors(surface, estimate, residuals)));
+  const auto& nodes = surface.nodes();
+  NodeFlux result{std::move(residuals.model), {}};
+  Field squares(nodes.size(),
+                kZero);  // of the mean's deviation, units that add up over area
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    if (!(nodes[i].area > 0)) continue;
+    Lanes deviation = kZero;
+    for (size_t w = 0; w < kWidths; ++w) {
+      const Lanes &a = residuals.smooth[0][w][i], &b = residuals.smooth[1][w][i];
+      result.flux[i] += share[i][int(w)] * 0.5f * (a + b);
+      deviation += share[i][int(w)] * 0.5f * (a - b);
+    }
+    squares[i] = deviation * deviation / nodes[i].area;
+  }
+  auto smooth =
+      smoother.filtered({{std::move(squares), {conserving(smoother.filter(gaussian(kVarianceWidth)))}}});
+  result.variance = std::move(smooth[0][0]);
+  for (size_t i = 0; i < nodes.size(); ++i)
+    for (int c = 0; c < 3; ++c) result.variance[i][c] = std::max(0.0f, result.variance[i][c] * nodes[i].area);
+  return result;
+}
+
+NodeFlux cleanedQuickly(const Smoother& smoother, const NodeEstimate& estimate,
+                        const Smoother::Response& response) {
+  const auto width = twice(leastWidth(estimate));
+  const auto rest = [&](double q, int c) { return (1 - width(q, c)) * response(q, c); };
+  Field both = estimate.half[0];
+  for (size_t i = 0; i < both.size(); ++i) both[i] = 0.5f * (both[i] + estimate.half[1][i]);
+  const auto out = smoother.filtered({{std::move(both), {conserving(smoother.filter(width))}},
+                                      {estimate.entering, {smoother.filter(rest)}}});
+  NodeFlux result{std::move(out[0][0]), {}};
+  for (size_t i = 0; i < result.flux.size(); ++i) result.flux[i] += out[1][0][i];
+  return result;
+}
+
+}  // namespace lychnite::volume
