@@ -38,6 +38,9 @@ void printInfo(const std::string& model, const MeshInfo& info, const LoadedMesh*
   line("unused vertices", fmt::format("{} (dropped)", r.unused_vertices));
   line("normals", r.normals_made ? "made, angle-weighted" : "from the file");
   if (r.flipped) line("orientation", "was inside out, turned");
+  if (loaded->animation)
+    for (const MeshAnimation::Clip& clip : loaded->animation->clips())
+      line("animation", fmt::format("{}, {:.3g} s", clip.name, clip.seconds));
   line("load time", fmt::format("{:.3f} s", loaded->seconds));
 }
 

@@ -14,8 +14,9 @@ namespace lychnite::viewer {
 /// Motion that goes on by itself.
 struct Animation {
   bool lights = false, objects = false;
+  bool clips = false;  ///< the model's own
   double degreesPerSecond = 45;
-  bool running() const { return lights || objects; }
+  bool running() const { return lights || objects || clips; }
 };
 
 /// What is on the screen beside the document, and not part of what is saved or undone.
@@ -28,8 +29,14 @@ struct Controls {
   std::string sizeText;
   bool editsSize = false;
   bool turnsLight = false;     ///< a hand is on the light now
+  bool inspects = false;       ///< the section about what is inside is open
   std::vector<float> frameMs;  ///< of the last frames that drew
 };
+
+/// The methods that a window can show, in their order.
+const std::vector<Method>& liveMethods();
+/// Plays the subject's clip (the first one from rest) or stops where it is.
+void togglePlay(Controls& controls, Scene& scene);
 
 /// What panels work on.
 struct PanelContext {
@@ -47,6 +54,7 @@ struct PanelContext {
 void drawPanel(PanelContext& context, const Area& area);
 void drawMaterialSection(PanelContext& context);
 void drawLightSection(PanelContext& context);
+void drawAnimationSection(PanelContext& context);
 void drawMethodSection(PanelContext& context);
 void drawCompareSection(PanelContext& context);
 void drawInspectSection(PanelContext& context);
@@ -56,6 +64,10 @@ void drawFileSection(PanelContext& context);
 void drawSizeBar(PanelContext& context, const Area& area);
 /// What is drawn over the picture: the ruler's numbers, the wipe, the lights' directions, messages, the keys.
 void drawOverlay(PanelContext& context, const Area& area, const std::vector<SessionMessage>& messages);
+/// The samples of the pixel under the mouse, on the light-space map's inset and on the object.
+void drawSamples(PanelContext& context, const Area& area);
+/// A point of the scene (mm) on the window; nothing behind the camera.
+std::optional<glm::dvec2> onWindow(const CameraFrame& camera, const Area& area, const glm::dvec3& point);
 
 /// A heading that opens and closes; true while it is open.
 bool sectionOpen(PanelContext& context, const char* title, bool open);

@@ -18,7 +18,21 @@ void toggle(CompareView& compare, CompareView::Mode mode) {
   compare.mode = compare.mode == mode ? CompareView::Mode::kOff : mode;
 }
 
+void nextMethod(RenderSettings& settings) {
+  const auto& methods = liveMethods();
+  const auto now = std::find(methods.begin(), methods.end(), settings.method);
+  settings.method = now + 1 < methods.end() ? now[1] : methods.front();
+}
+
 }  // namespace
+
+void togglePlay(Controls& controls, Scene& scene) {
+  Object& subject = scene.objects[subjectIndex(scene)];
+  const MeshAnimation::Clip* clip = clipOf(subject);
+  if (!clip) return;
+  controls.animation.clips = !controls.animation.clips;
+  if (controls.animation.clips && subject.clip.empty()) showClip(scene, clip->name, 0);
+}
 
 Hands::Hold Hands::holdOf(int button, const PanelContext& context, const Area& picture) const {
   const CompareView& compare = context.session.state().compare;
@@ -122,7 +136,10 @@ bool Hands::plainKey(int key, PanelContext& context) {
   if (key == GLFW_KEY_LEFT_BRACKET) setSubjectSize(scene, size / 2);
   if (key == GLFW_KEY_RIGHT_BRACKET) setSubjectSize(scene, size * 2);
   if (key == GLFW_KEY_SPACE) context.controls.animation.lights = !context.controls.animation.lights;
+  if (key == GLFW_KEY_M) nextMethod(state.settings);
+  if (key == GLFW_KEY_P) togglePlay(context.controls, scene);
   if (key == GLFW_KEY_G) state.ruler = !state.ruler;
+  if (key == GLFW_KEY_I) state.inspect.samples = !state.inspect.samples;
   if (key == GLFW_KEY_C) toggle(state.compare, CompareView::Mode::kWipe);
   if (key == GLFW_KEY_D) toggle(state.compare, CompareView::Mode::kDifference);
   return true;

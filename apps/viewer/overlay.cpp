@@ -16,13 +16,6 @@ void text(ImDrawList& draw, glm::dvec2 at, ImU32 colour, const std::string& word
   draw.AddText(toIm(at), colour, words.c_str());
 }
 
-/// A point of the scene on the window; nothing behind the camera.
-std::optional<glm::dvec2> onWindow(const CameraFrame& camera, const Area& area, const glm::dvec3& point) {
-  const glm::dvec3 p = camera.project(point);
-  if (p.z <= 0) return {};
-  return area.low + glm::dvec2(p.x, p.y);
-}
-
 /// A ruler along the longest side of the object's box, which is what its size means, at the box's left or
 /// lower edge as the camera sees it.
 struct Ruler {
@@ -157,8 +150,11 @@ void drawKeys(ImDrawList& draw, const Area& area, double s) {
                                          {"1 to 9", "views"},
                                          {"[  ]", "half, double size"},
                                          {"Space", "orbit the lights"},
+                                         {"M", "next method"},
+                                         {"P", "play the model's animation"},
                                          {"G", "ruler and grid"},
                                          {"C, D", "wipe, difference"},
+                                         {"I", "samples under the mouse"},
                                          {"Ctrl+Z, Ctrl+Shift+Z", "undo, redo"},
                                          {"Ctrl+S", "save the scene"},
                                          {"Ctrl+P, Ctrl+Shift+P", "write a PNG, an EXR"},
@@ -176,6 +172,12 @@ void drawKeys(ImDrawList& draw, const Area& area, double s) {
 
 }  // namespace
 
+std::optional<glm::dvec2> onWindow(const CameraFrame& camera, const Area& area, const glm::dvec3& point) {
+  const glm::dvec3 p = camera.project(point);
+  if (p.z <= 0) return {};
+  return area.low + glm::dvec2(p.x, p.y);
+}
+
 void drawOverlay(PanelContext& context, const Area& area, const std::vector<SessionMessage>& messages) {
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   const double s = context.ui.scale();
@@ -189,6 +191,7 @@ void drawOverlay(PanelContext& context, const Area& area, const std::vector<Sess
     else
       text(draw, area.low + glm::dvec2(12 * s, 10 * s), kFaint,
            context.view.labelOf(CompareView::Source::kView));
+    if (state.inspect.samples) drawSamples(context, area);
     if (context.controls.turnsLight) drawLight(context, draw, area);
   }
   if (context.session.empty())

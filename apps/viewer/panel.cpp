@@ -57,6 +57,11 @@ void pictureRow(PanelContext& context) {
   }
 }
 
+bool moves(const PanelContext& context) {
+  const Scene& scene = context.session.state().scene;
+  return scene.objects[subjectIndex(scene)].animation != nullptr;
+}
+
 }  // namespace
 
 bool sectionOpen(PanelContext& context, const char* title, bool open) {
@@ -96,8 +101,10 @@ void drawPanel(PanelContext& context, const Area& area) {
     };
     for (const Section& section :
          {Section{"Material", drawMaterialSection, true}, Section{"Light", drawLightSection, true},
-          Section{"Picture", drawMethodSection, false}, Section{"Compare", drawCompareSection, false},
-          Section{"Inside", drawInspectSection, false}, Section{"File", drawFileSection, false}}) {
+          Section{"Animation", drawAnimationSection, true}, Section{"Picture", drawMethodSection, false},
+          Section{"Compare", drawCompareSection, false}, Section{"Inside", drawInspectSection, false},
+          Section{"File", drawFileSection, false}}) {
+      if (section.draw == drawAnimationSection && !moves(context)) continue;
       if (!sectionOpen(context, section.title, section.open)) continue;
       section.draw(context);
       ImGui::Spacing();

@@ -10,12 +10,6 @@
 namespace lychnite::viewer {
 namespace {
 
-const std::vector<Method>& liveMethods() {
-  static const std::vector<Method> methods{Method::kMatched, Method::kAdaptive, Method::kFixed,
-                                           Method::kVolume};
-  return methods;
-}
-
 const std::vector<ProfileKind>& profiles() {
   static const std::vector<ProfileKind> kinds{ProfileKind::kDipole, ProfileKind::kBetterDipole,
                                               ProfileKind::kNormalizedDiffusion, ProfileKind::kTabulated};
@@ -148,7 +142,30 @@ void drawNumbers(PanelContext& context) {
       "against the walk, the walk's own noise is taken out.");
 }
 
+void drawSamplerError(PanelContext& context) {
+  context.ui.label(
+      "Sampling error",
+      "Multiple scattering in a small picture of the scene at rest, against the same profile summed "
+      "over the lit surface to 0.5 % (the dipole judge): relative RMSE and bias. It is what the "
+      "method loses by its samples and its map, silhouettes included. It says nothing about the "
+      "profile itself, nor about interpolation between pixels: for that, compare with the truth.");
+  SamplerError& error = context.view.samplerError();
+  if (const auto& found = error.found())
+    ImGui::Text("%.1f %%, bias %+.1f %%", 100 * found->relative_rmse, 100 * found->bias);
+  else if (!SamplerError::judges(context.session.state().settings))
+    ImGui::TextUnformatted("none: not a sum");
+  else
+    ImGui::TextUnformatted(error.problem().empty() ? "..." : "none");
+  context.ui.mark("sampling-error");
+}
+
 }  // namespace
+
+const std::vector<Method>& liveMethods() {
+  static const std::vector<Method> methods{Method::kMatched, Method::kAdaptive, Method::kFixed,
+                                           Method::kVolume};
+  return methods;
+}
 
 void drawMethodSection(PanelContext& context) {
   RenderSettings& settings = context.session.state().settings;
@@ -207,17 +224,26 @@ void drawCompareSection(PanelContext& context) {
 
 void drawInspectSection(PanelContext& context) {
   ViewState& state = context.session.state();
+  context.controls.inspects = true;
   int layer = int(state.inspect.layer);
   if (context.ui.choice("Show", "The picture, or what it is made from.", layer,
                         {"Picture", "Depth", "Normals", "Light-space map"}))
     state.inspect.layer = Inspect::Layer(layer);
-  if (state.inspect.layer == Inspect::Layer::kMap) {
-    context.ui.slider("Of light", "", state.inspect.light, 0,
-                      std::max(0, int(state.scene.lights.size()) - 1));
+  if (state.inspect.layer == Inspect::Layer::kMap || state.inspect.samples) {
+    int shown = state.inspect.light + 1;
+    if (context.ui.slider("Of light", "", shown, 1, std::max(1, int(state.scene.lights.size()))))
+      state.inspect.light = shown - 1;
+  }
+  if (state.inspect.layer == Inspect::Layer::kMap)
     context.ui.slider("Mip level",
                       "Each level is half as wide as the one before; far samples read coarse levels.",
                       state.inspect.mapLevel, 0, std::max(0, context.view.mapLevels() - 1));
-  }
+  context.ui.check(
+      "Samples under the mouse",
+      "Where the light of the pixel under the mouse is taken from, on the light-space map and on "
+      "the object: colour by how much a sample adds, size of its footprint. I.",
+      state.inspect.samples);
+  drawSamplerError(context);
   const RenderStats* stats = context.view.stats();
   if (!stats) return;
   for (const RenderStats::Pass& pass : stats->passes) {

@@ -78,6 +78,8 @@ bool LivePicture::update(const ViewState& state, glm::ivec2 pixels, double scale
   try {
     renderer_->draw(state.scene, settings);
     drawn_ = true;
+    drawnScene_ = state.scene;
+    drawnSettings_ = settings;
   } catch (const Error& error) {
     if (error.kind() == Error::Kind::kDevice) throw;
     // A scene that a hand made and the method cannot draw (a point light inside the object): the picture
@@ -85,6 +87,19 @@ bool LivePicture::update(const ViewState& state, glm::ivec2 pixels, double scale
     if (changed) problem_ = error.what();
   }
   return true;
+}
+
+const std::optional<SeenSamples>& LivePicture::samplesAt(const glm::dvec2& place, size_t light) {
+  const RenderSettings& s = drawnSettings_;
+  const glm::ivec2 pixel(std::clamp(int(place.x * s.width), 0, s.width - 1),
+                         std::clamp(int((1 - place.y) * s.height), 0, s.height - 1));
+  std::string key = fmt::format("{} {} {} {} {}", key_, drawnScale_, pixel.x, pixel.y, light);
+  if (key == seenKey_) return seen_;
+  seenKey_ = std::move(key);
+  seen_.reset();
+  if (drawn_ && !wantsVolume_)
+    seen_ = RendererTextures::samplesAt(*renderer_, drawnScene_, drawnSettings_, pixel, light);
+  return seen_;
 }
 
 /// Solves while the picture rests, so that frames have the processor while it moves.
@@ -150,6 +165,7 @@ PictureView::PictureView(const RendererOptions& options, const BackgroundWalk::O
       variant_(options, {.threads = walk.threads, .yields = walk.yields}),
       pace_(gpu::Context({.current = true}).device().software),
       walk_(walk),
+      samplerError_(options, walk.threads, walk.yields),
       idleMs_(kMillisecondsIdle) {
   live_.prepare();
 }
@@ -179,6 +195,11 @@ void PictureView::update(const Request& request) {
             (!compares(Source::kTruth) || walkTexture_ || !walk_.problem().empty());
   updateError(request);
   if (measuring_.valid()) atRest_ = false;
+  if (!request.judge || request.moving)
+    samplerError_.stop();
+  else if (settled_)
+    samplerError_.want(state, double(request.pixels.x) / std::max(1, request.pixels.y));
+  if (request.judge && samplerError_.pending()) atRest_ = false;
 }
 
 void PictureView::updateWalk(const Request& request) {
@@ -295,22 +316,45 @@ std::optional<Display::Layer> PictureView::layerOf(const ViewState& state) {
     layer.high = (middle + sphere.radius) / unit;
     return layer;
   }
+  return mapLayer(state, subjectIndex(state.scene), inspect.mapLevel);
+}
+
+std::optional<Display::Layer> PictureView::mapLayer(const ViewState& state, size_t object, int level) {
   if (state.scene.lights.empty()) return {};
-  const size_t light = size_t(std::clamp(inspect.light, 0, int(state.scene.lights.size()) - 1));
-  const LightMapPass::Map& map =
-      RendererTextures::maps(live_.renderer()).get(subjectIndex(state.scene), light);
+  const size_t light = size_t(std::clamp(state.inspect.light, 0, int(state.scene.lights.size()) - 1));
+  const LightMapPass::Map& map = RendererTextures::maps(live_.renderer()).get(object, light);
   const bool flux = map.moments.has_value();
   const gpu::Texture* texture = flux ? &*map.moments : map.cosine ? &*map.cosine : nullptr;
   if (!texture) return {};
   mapLevels_ = texture->levels();
   return Display::Layer{
-      .kind = flux ? 3 : 4, .texture = texture, .level = double(std::min(inspect.mapLevel, mapLevels_ - 1))};
+      .kind = flux ? 3 : 4, .texture = texture, .level = double(std::min(level, mapLevels_ - 1))};
 }
 
-void PictureView::show(const gpu::Framebuffer& target, const gpu::Rect& area, const ViewState& state) {
+const std::optional<SeenSamples>& PictureView::samplesAt(const glm::dvec2& place, const ViewState& state) {
+  static const std::optional<SeenSamples> kNone;
+  const CompareView& compare = state.compare;
+  Source source = Source::kView;
+  if (compare.mode == CompareView::Mode::kWipe)
+    source = place.x > compare.wipe ? compare.right : compare.left;
+  LivePicture* picture = source == Source::kView ? &live_ : source == Source::kVariant ? &variant_ : nullptr;
+  const size_t light = size_t(std::max(0, state.inspect.light));
+  const auto& found = picture && picture->ready() ? picture->samplesAt(place, light) : kNone;
+  seen_ = found ? &found : nullptr;
+  return found;
+}
+
+void PictureView::show(const gpu::Framebuffer& target, const Area& area, const ViewState& state) {
+  const auto seen = std::exchange(seen_, nullptr);
   if (!live_.ready()) return;
-  Display::Frame frame{
-      .area = area, .compare = state.compare, .meanOfRight = meanOfRight_, .toneMapping = state.toneMapping};
+  const auto rect = [&](const Area& part) {
+    return gpu::Rect{int(part.low.x), target.height() - int(part.high.y), int(part.size().x),
+                     int(part.size().y)};
+  };
+  Display::Frame frame{.area = rect(area),
+                       .compare = state.compare,
+                       .meanOfRight = meanOfRight_,
+                       .toneMapping = state.toneMapping};
   frame.left = &live_.texture();
   if (state.compare.mode != CompareView::Mode::kOff) {
     if (const gpu::Texture* left = textureOf(state.compare.left)) frame.left = left;
@@ -319,6 +363,17 @@ void PictureView::show(const gpu::Framebuffer& target, const gpu::Rect& area, co
   frame.layer = layerOf(state);
   if (state.ruler) frame.grid = &state.scene;
   display_.draw(target, frame);
+  if (!seen || !*seen || (*seen)->object >= state.scene.objects.size()) return;
+  Display::Frame inset{.area = rect(mapInset(area)), .left = frame.left};
+  inset.layer = mapLayer(state, (*seen)->object, 0);
+  if (inset.layer) display_.draw(target, inset);
+}
+
+Area mapInset(const Area& picture) {
+  const double side = std::floor(0.34 * std::min(picture.size().x, picture.size().y)),
+               gap = std::floor(0.05 * side);
+  const glm::dvec2 low(picture.low.x + gap, picture.high.y - gap - side);
+  return {low, low + glm::dvec2(side)};
 }
 
 void PictureView::frameTook(double ms) {

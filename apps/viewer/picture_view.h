@@ -7,11 +7,14 @@
 #include <utility>
 #include <vector>
 
+#include "area.h"
 #include "display.h"
 #include "lychnite/app/background.h"
 #include "lychnite/app/view_state.h"
 #include "lychnite/image/metrics.h"
 #include "lychnite/technique/renderer.h"
+#include "sampler_error.h"
+#include "technique/renderer_textures.h"
 
 namespace lychnite::viewer {
 
@@ -39,6 +42,9 @@ class LivePicture {
   /// "volume, pass 3", or what stands in for it; "" for a real-time method.
   std::string label() const;
   const Renderer& renderer() const { return *renderer_; }
+  /// The samples behind the place (shares from the upper left) of the picture that is drawn, kept until it or
+  /// the place changes. Nothing off the objects and for `volume`.
+  const std::optional<SeenSamples>& samplesAt(const glm::dvec2& place, size_t light);
   const RenderStats& stats() const { return renderer_->stats(); }
   /// Why the newest state could not be drawn (once); the picture is then an older one.
   std::string takeProblem() { return std::exchange(problem_, {}); }
@@ -55,10 +61,18 @@ class LivePicture {
   std::optional<gpu::Texture> volumeTexture_;
   std::shared_ptr<const Image> volumeImage_;
   int passes_ = 0;
+  Scene drawnScene_;
+  RenderSettings drawnSettings_;
+  std::string seenKey_;
+  std::optional<SeenSamples> seen_;
   std::string key_, problem_, obstacle_;
   bool drawn_ = false, solving_ = false, wantsVolume_ = false;
   double drawnScale_ = 0;
 };
+
+/// The square in the lower left corner of the picture's area in which the light-space map is shown beside its
+/// samples: pixels of the window from its upper left corner.
+Area mapInset(const Area& picture);
 
 /// Chooses the share of the full resolution at which a frame takes about `kTargetMs`.
 class Pace {
@@ -84,11 +98,12 @@ class PictureView {
     bool moving = false;  ///< a hand or an animation is on it
     double seconds = 0;   ///< now
     std::shared_ptr<const Image> file;
+    bool judge = false;  ///< the sampler's error is asked for
   };
   /// Draws what the request needs that is not there yet.
   void update(const Request& request);
   /// Puts it on the window. Nothing before the first update().
-  void show(const gpu::Framebuffer& target, const gpu::Rect& area, const ViewState& state);
+  void show(const gpu::Framebuffer& target, const Area& area, const ViewState& state);
 
   bool ready() const { return live_.ready(); }
   /// All that is asked for is there at full resolution (the walk: a first picture of it).
@@ -105,9 +120,14 @@ class PictureView {
   /// Makes every picture anew, with new renderers.
   void forget();
 
+  /// The samples behind a place of the picture as it was drawn last, on the side of a comparison that is
+  /// there.
+  const std::optional<SeenSamples>& samplesAt(const glm::dvec2& place, const ViewState& state);
   const RenderStats* stats() const { return live_.ready() ? &live_.stats() : nullptr; }
   std::optional<BackgroundWalk::Result> walk() const { return walkShown_ ? walk_.newest() : std::nullopt; }
   std::string walkProblem() const { return walk_.problem(); }
+  /// Of the scene's method, at rest, while it is asked for.
+  SamplerError& samplerError() { return samplerError_; }
   /// Of left against right, when both are whole.
   const std::optional<Metrics>& error() const { return error_; }
   const std::string& errorProblem() const { return errorProblem_; }
@@ -128,6 +148,7 @@ class PictureView {
   std::shared_ptr<const Image> imageOf(Source source) const;
   std::string keyOf(Source source) const;
   std::optional<Display::Layer> layerOf(const ViewState& state);
+  std::optional<Display::Layer> mapLayer(const ViewState& state, size_t object, int level);
 
   struct Measured {
     Metrics metrics;
@@ -139,6 +160,7 @@ class PictureView {
   LivePicture live_, variant_;
   Pace pace_;
   BackgroundWalk walk_;
+  SamplerError samplerError_;
   bool walkShown_ = false;
   std::optional<gpu::Texture> walkTexture_, fileTexture_;
   std::shared_ptr<const Image> walkImage_, fileImage_;
@@ -147,6 +169,7 @@ class PictureView {
   std::string key_;
   bool atRest_ = false, settled_ = false, drew_ = false;
   int mapLevels_ = 1;
+  const std::optional<SeenSamples>* seen_ = nullptr;  ///< of this frame
   std::future<Measured> measuring_;
   std::string measuredKey_;
   std::optional<Metrics> error_;

@@ -6,19 +6,11 @@
 #include <map>
 #include <string>
 
+#include "area.h"
 #include "lychnite/base/vec.h"
 #include "window.h"
 
 namespace lychnite::viewer {
-
-/// A rectangle of the window in pixels of the framebuffer, from its upper left corner.
-struct Area {
-  glm::dvec2 low{0}, high{0};
-  glm::dvec2 size() const { return high - low; }
-  bool holds(const glm::dvec2& p) const {
-    return p.x >= low.x && p.y >= low.y && p.x < high.x && p.y < high.y;
-  }
-};
 
 /// Dear ImGui in our window: font, theme, input, and the pieces that panels are made of.
 class Ui {

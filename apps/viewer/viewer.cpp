@@ -30,6 +30,22 @@ constexpr double kPlayedFrame = 1 / 60.0;  // seconds that a frame of a script s
 constexpr double kSlowSeconds = 0.1;
 constexpr size_t kKeptFrames = 120;
 
+/// How long the way to the first picture takes, step by step, on the clock and on the processor.
+class Stopwatch {
+ public:
+  void tell(const LogSink& log, LogLevel level, const std::string& what) const {
+    const std::chrono::duration<double> passed = Clock::now() - began_;
+    const double worked = double(std::clock() - worked_) / CLOCKS_PER_SEC;
+    logTo(log, level,
+          fmt::format("{} {:.2f} s after the window, {:.2f} s of work", what, passed.count(), worked));
+  }
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - began_).count(); }
+
+ private:
+  Clock::time_point began_ = Clock::now();
+  std::clock_t worked_ = std::clock();
+};
+
 /// What the window shows, as a picture that writePng gives back as it is.
 Image windowImage(const gpu::Framebuffer& window) {
   const std::vector<uint8_t> bytes = window.readBytes();
@@ -93,7 +109,7 @@ class Viewer {
   fs::path preferencesPath_;
   Preferences preferences_;
   Window window_;
-  Clock::time_point began_ = Clock::now();
+  Stopwatch stopwatch_;
   gpu::Context context_;
   ProfileQueue profiles_;
   Ui ui_;
@@ -129,7 +145,9 @@ Viewer::Viewer(const ViewOptions& options)
              .yields = options.play.empty()}),
       swatches_({.useCurrentContext = true}) {
   makePlayer();
+  stopwatch_.tell(options_.log, LogLevel::kDebug, "shaders");
   start();
+  stopwatch_.tell(options_.log, LogLevel::kDebug, "model");
 }
 
 Viewer::~Viewer() {
@@ -215,7 +233,7 @@ void Viewer::run() {
                         : slow()                     ? kSlowSeconds
                                                      : 2 * kSlowSeconds;
     std::vector<InputEvent> events = window_.events(wait);
-    const double now = std::chrono::duration<double>(Clock::now() - began_).count();
+    const double now = stopwatch_.seconds();
     if (player_) events = player_->next(window_, ui_, now);
     if (quit_) break;
     const double before = seconds_;
@@ -270,6 +288,9 @@ void Viewer::animate() {
   const double degrees = animation.degreesPerSecond * frameSeconds_;
   if (animation.lights) turnLights(session_.state().scene, degrees);
   if (animation.objects) turnObjects(session_.state().scene, degrees);
+  Scene& scene = session_.state().scene;
+  animation.clips = animation.clips && scene.objects[subjectIndex(scene)].animation;
+  if (animation.clips) playClips(scene, frameSeconds_);
 }
 
 void Viewer::takeMessages() {
@@ -284,6 +305,7 @@ void Viewer::draw(PanelContext& context, const Layout& layout) {
   // Before the panel: what it shows must stay as it is until the window is drawn.
   swatchesLeft_ = !view_.settled() || swatches_.drawOne(view_.display());
   ui_.begin(frameSeconds_);
+  controls_.inspects = false;
   drawPanel(context, layout.panel);
   drawSizeBar(context, layout.bar);
   std::vector<SessionMessage> messages;
@@ -296,10 +318,11 @@ void Viewer::draw(PanelContext& context, const Layout& layout) {
                   .pixels = area,
                   .moving = hands_.holding() || ui_.busy() || controls_.animation.running(),
                   .seconds = seconds_,
-                  .file = session_.picture()});
+                  .file = session_.picture(),
+                  .judge = controls_.inspects});
   for (const std::string& problem : view_.takeProblems()) session_.say(problem, true);
   target.clearColour(0, {0.05f, 0.05f, 0.052f, 1});
-  view_.show(target, {0, pixels.y - area.y, area.x, area.y}, session_.state());
+  view_.show(target, {{0, 0}, glm::dvec2(area)}, session_.state());
   ui_.end();
 }
 
@@ -310,9 +333,7 @@ void Viewer::finish(Clock::time_point start) {
   view_.frameTook(milliseconds);
   if (!pictureShown_ && view_.ready()) {
     pictureShown_ = true;
-    const std::chrono::duration<double> passed = Clock::now() - began_;
-    logTo(options_.log, LogLevel::kInfo,
-          fmt::format("first picture {:.2f} s after the window", passed.count()));
+    stopwatch_.tell(options_.log, LogLevel::kInfo, "first picture");
   }
   if (view_.drew()) controls_.frameMs.push_back(float(milliseconds));
   if (controls_.frameMs.size() > kKeptFrames) controls_.frameMs.erase(controls_.frameMs.begin());

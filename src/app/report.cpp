@@ -97,6 +97,10 @@ std::string infoJson(const std::string& model, const MeshInfo& info, const Loade
                     {"unused_vertices", r.unused_vertices},
                     {"normals_made", r.normals_made},
                     {"flipped", r.flipped}};
+    json["animations"] = Json::array();
+    if (loaded->animation)
+      for (const MeshAnimation::Clip& clip : loaded->animation->clips())
+        json["animations"].push_back({{"name", clip.name}, {"seconds", clip.seconds}});
     json["load_seconds"] = loaded->seconds;
   }
   return text(json);

@@ -130,6 +130,35 @@ void turnObjects(Scene& scene, double degrees) {
   }
 }
 
+void showClip(Scene& scene, const std::string& clip, double seconds) {
+  const auto distance = [&] {
+    const CameraFrame camera = cameraFrame(scene, 1, 1);
+    const Sphere sphere = boundingSphere(scene, true);
+    return glm::distance(camera.position, sphere.radius > 0 ? sphere.centre : boundingSphere(scene).centre);
+  };
+  const double before = distance();
+  setPose(scene.objects[subjectIndex(scene)], clip, seconds);
+  if (auto* orbit = std::get_if<OrbitCamera>(&scene.camera)) orbit->factor *= before / distance();
+}
+
+void playClips(Scene& scene, double seconds) {
+  for (Object& object : scene.objects) {
+    if (object.clip.empty() || !object.animation) continue;
+    const double length = clipOf(object)->seconds;
+    double next = object.time + seconds;
+    if (length > 0) next -= length * std::floor(next / length);
+    setPose(object, object.clip, next);
+  }
+}
+
+const MeshAnimation::Clip* clipOf(const Object& object) {
+  if (!object.animation) return nullptr;
+  const auto& clips = object.animation->clips();
+  for (const MeshAnimation::Clip& clip : clips)
+    if (clip.name == object.clip) return &clip;
+  return &clips.front();
+}
+
 Light asPoint(const Scene& scene, const ParallelLight& light) {
   const Sphere sphere = subjectSphere(scene);
   const double distance = 3 * sphere.radius;

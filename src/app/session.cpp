@@ -11,6 +11,7 @@
 #include <utility>
 #include <variant>
 
+#include "lychnite/app/scene_moves.h"
 #include "lychnite/base/error.h"
 #include "lychnite/image/io.h"
 #include "lychnite/mesh/builtin.h"
@@ -193,8 +194,13 @@ void Session::takeObject(Loading& done) {
   const Object object = std::get<Object>(done.result.get());
   commit();
   if (done.reload) {
-    for (Object& each : state_.scene.objects)
-      if (each.model == object.model) each.mesh = object.mesh;
+    for (Object& each : state_.scene.objects) {
+      if (each.model != object.model) continue;
+      each.mesh = object.mesh;
+      each.animation = object.animation;
+      const bool still = object.animation && clipOf(object) && clipOf(each)->name == each.clip;
+      setPose(each, still ? each.clip : "", each.time);
+    }
   } else if (empty()) {
     state_ = defaultView(object);
   } else {
@@ -209,6 +215,9 @@ void Session::takeObject(Loading& done) {
   if (!done.reload) {
     documentName_ = fs::path(done.path).filename().string();
     scenePath_.clear();
+    if (object.animation)
+      say(fmt::format("{}: {} animation{}, P plays", documentName_, object.animation->clips().size(),
+                      object.animation->clips().size() > 1 ? "s" : ""));
   }
   commit();
 }

@@ -62,6 +62,7 @@ Object loadObject(const std::string& model, const fs::path& folder, const LogSin
   const LoadedMesh loaded = loadMesh(path, log);
   reportRepairs(loaded, model, log);
   object.mesh = loaded.mesh;
+  object.animation = loaded.animation;
   return object;
 }
 

@@ -48,10 +48,22 @@ Material readMaterial(const toml::table& table, const std::string& file) {
 }
 
 Object readObject(const toml::table& table, const fs::path& path, const LogSink& log) {
-  const TomlReader in(table, path.string(),
-                      {"name", "model", "size", "position", "rotation", "quaternion", "material"});
+  const TomlReader in(
+      table, path.string(),
+      {"name", "model", "animation", "time", "size", "position", "rotation", "quaternion", "material"});
   Object object = loadObject(in.text("model"), path.has_parent_path() ? path.parent_path() : ".", log);
   object.name = in.text("name", "");
+  if (in.has("animation")) {
+    const double seconds = in.number("time", 0);
+    if (!std::isfinite(seconds) || seconds < 0) in.refuse("time", "seconds, 0 or more");
+    try {
+      setPose(object, in.text("animation"), seconds);
+    } catch (const Error& error) {
+      Error::Parts parts = error.parts();
+      parts.where = in.where("animation");
+      throw Error(parts);
+    }
+  }
   if (!in.has("size")) in.refuse("size", "the object's true size, the longest side of its box (\"20mm\")");
   object.size = in.length("size", 0);
   if (!(object.size > 0)) in.refuse("size", "a length above zero");
@@ -136,7 +148,10 @@ std::string mediumText(const Material& material) {
 std::string objectText(const Object& object) {
   std::string text = "\n[[object]]\n";
   if (!object.name.empty()) text += fmt::format("name = {}\n", tomlString(object.name));
-  text += fmt::format("model = {}\nsize = \"{}mm\"\n", tomlString(object.model), object.size);
+  text += fmt::format("model = {}\n", tomlString(object.model));
+  if (!object.clip.empty())
+    text += fmt::format("animation = {}\ntime = {}  # s\n", tomlString(object.clip), object.time);
+  text += fmt::format("size = \"{}mm\"\n", object.size);
   if (object.position != glm::dvec3(0)) text += fmt::format("position = {}\n", lengthsText(object.position));
   const glm::dquat& q = object.rotation;
   if (q != glm::dquat(1, 0, 0, 0))

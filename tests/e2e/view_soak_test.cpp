@@ -1,4 +1,4 @@
-// Random hands on the viewer. LYCHNITE_SOAK_FRAMES=20000 makes it a long one.
+// Random hands on the viewer. LYCHNITE_SOAK_FRAMES=20000 makes it a long one (ctest label soak, nightly).
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -9,6 +9,7 @@
 #include "e2e/runner.h"
 #include "e2e/x_display.h"
 #include "lychnite/image/io.h"
+#include "unit/mesh/moving_box.h"
 
 namespace lychnite::e2e {
 namespace {
@@ -29,10 +30,16 @@ std::string randomScript(int frames) {
   const std::vector<std::string> sliders{"sigma-s-r", "sigma-a-g", "sigma-s-b", "g",
                                          "index",     "roughness", "size"};
   const std::vector<std::string> keys{
-      "[", "]", "f", "1", "3", "5", "7", "g", "c", "d", "space", "ctrl+z", "ctrl+shift+z", "h"};
-  const std::vector<std::string> models{"sphere", "stone", "knot", "slab", "tetra.off", "broken.ply"};
+      "[", "]", "f", "1", "3", "5", "7", "g", "c", "d", "i", "p", "space", "ctrl+z", "ctrl+shift+z", "h"};
+  const std::vector<std::string> models{"sphere", "stone",     "knot",    "slab",
+                                        "disc",   "tetra.off", "box.glb", "broken.ply"};
   std::string script = "wait rest\n";
-  for (int done = 0; done < frames;) {
+  for (int done = 0, part = 0; done < frames;) {
+    if (done / 300 > part) {
+      part = done / 300;
+      script += "key m\nwait 40\n";  // long enough for volume to begin
+      done += 42;
+    }
     const int what = int(random() % 16);
     if (what < 5) {
       script += fmt::format("drag @{0}:{1},0.5 @{0}:{2},0.5 left 3\n", sliders[random() % sliders.size()],
@@ -67,6 +74,9 @@ class ViewSoak : public testing::Test {
     scratch_.write("tetra.off",
                    "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
     scratch_.write("broken.ply", "ply\nnonsense");
+    sample::MovingBox box;
+    box.animate(2, "rotation", sample::MovingBox::kTurns);
+    scratch_.write("box.glb", box.glb());
   }
 
   Result play(int frames) const {

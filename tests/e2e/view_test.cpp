@@ -8,6 +8,7 @@
 #include "e2e/x_display.h"
 #include "lychnite/image/io.h"
 #include "lychnite/scene/scene_file.h"
+#include "unit/mesh/moving_box.h"
 
 namespace lychnite::e2e {
 namespace {
@@ -187,6 +188,49 @@ TEST_F(View, VolumeTakesThePlaceOfMatchedWhenItIsSolved) {
   EXPECT_GT(changed, 1);
   EXPECT_LT(changed, 40);
   EXPECT_NE(result.err.find("shown by matched instead"), std::string::npos) << result.err;
+}
+
+TEST_F(View, TheSamplesUnderTheMouseLightUp) {
+  const Result result = play("stone",
+                             "key g\nmove @picture:0.9,0.1\nkey i\nwait rest\nscreenshot off.png\n"
+                             "move @picture:0.5,0.5\nwait 3\nscreenshot matched.png\n" +
+                                 choosing("fixed") +
+                                 "move @picture:0.5,0.5\nwait rest\nwait 3\nscreenshot fixed.png\n"
+                                 "key i\nwait rest\nscreenshot none.png\n");
+  ASSERT_EQ(result.status, 0) << result.err;
+  // Off the object nothing shows; on it, the map's inset in the lower left and squares on the stone.
+  const Part inset{0.02, 0.7, 0.3, 0.98}, stone{0.3, 0.3, 0.5, 0.5};
+  EXPECT_GT(difference(shot("off.png"), shot("matched.png"), inset), 10);
+  EXPECT_GT(difference(shot("off.png"), shot("matched.png"), stone), 2);
+  EXPECT_GT(difference(shot("none.png"), shot("fixed.png"), inset), 10);
+  EXPECT_LT(difference(shot("none.png"), shot("off.png"), inset), 1);
+}
+
+TEST_F(View, AnimationsPlayAndAreKeptByTheScene) {
+  sample::MovingBox box;
+  box.animate(2, "rotation", sample::MovingBox::kTurns, "LINEAR", "bend");
+  scratch_.write("box.glb", box.glb());
+  EXPECT_NE(scratch_.run({"info", "box.glb"}).out.find("bend, 2 s"), std::string::npos);
+  const Result result =
+      play("box.glb",
+           "key g\nclick @section-material\nclick @section-light\nwait rest\nscreenshot rest.png\n"
+                             "key p\nwait 60\nkey p\nwait rest\n"
+           "screenshot bent.png\nkey ctrl+s\nkey ctrl+p\nwait rest\n"
+           "drag @time:0.5,0.5 @time:1,0.5\nwait rest\nscreenshot end.png\nkey ctrl+z\nwait rest\n"
+           "screenshot again.png\n");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Part upper{0.1, 0.05, 0.9, 0.6};  // above the messages
+  EXPECT_GT(difference(shot("rest.png"), shot("bent.png"), upper), 1);
+  EXPECT_GT(difference(shot("bent.png"), shot("end.png"), upper), 1);
+  EXPECT_LT(difference(shot("bent.png"), shot("again.png"), upper), 0.01);
+  const Object kept = readScene(scratch_ / "box.toml").objects[0];
+  EXPECT_EQ(kept.clip, "bend");
+  EXPECT_NEAR(kept.time, 1, 0.1);  // 60 frames
+  const Result rendered =
+      scratch_.run({"render", "box.toml", "--resolution", fmt::format("{}x{}", kPictureWidth, kPictureHeight),
+                    "-o", "rendered.png"});
+  ASSERT_EQ(rendered.status, 0) << rendered.err;
+  EXPECT_EQ(scratch_.read("box.png"), scratch_.read("rendered.png"));
 }
 
 TEST_F(View, LightsCameraAndKeysMoveThePicture) {

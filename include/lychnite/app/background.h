@@ -87,6 +87,25 @@ class BackgroundVolume {
   std::unique_ptr<Impl> impl_;
 };
 
+/// The dipole's sum over the lit surface, which the real-time methods approximate: the same profile, summed
+/// to RenderSettings::tolerance. Measured profiles are not offered.
+class BackgroundDipole {
+ public:
+  explicit BackgroundDipole(int threads, bool yields = true);
+  ~BackgroundDipole();
+  BackgroundDipole(const BackgroundDipole&) = delete;
+  BackgroundDipole& operator=(const BackgroundDipole&) = delete;
+
+  /// As BackgroundWalk's.
+  void want(const Scene& scene, const RenderSettings& settings);
+  void stop();
+  std::shared_ptr<const Image> newest() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
 /// One picture to write, as `lychnite render` would.
 struct PictureRequest {
   Scene scene;

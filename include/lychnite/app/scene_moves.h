@@ -23,6 +23,13 @@ void turnLight(Scene& scene, size_t light, double azimuth, double elevation);
 /// All lights, or all objects, about y through the centre of the scene.
 void turnLights(Scene& scene, double degrees);
 void turnObjects(Scene& scene, double degrees);
+/// setPose() on the scene's subject; the camera stays where it is, though a clip may reach farther than the
+/// mesh at rest.
+void showClip(Scene& scene, const std::string& clip, double seconds);
+/// Moves every object that shows a clip so many seconds on, from its end back to its beginning.
+void playClips(Scene& scene, double seconds);
+/// The subject's animation that is shown, or its first one; nothing where it has none.
+const MeshAnimation::Clip* clipOf(const Object& object);
 /// A light of the other kind that gives the scene's centre the same irradiance from the same side.
 Light asPoint(const Scene& scene, const ParallelLight& light);
 Light asParallel(const Scene& scene, const PointLight& light);

@@ -37,8 +37,9 @@ struct CompareView {
 struct Inspect {
   enum class Layer { kPicture, kDepth, kNormal, kMap };
   Layer layer = Layer::kPicture;
-  int light = 0;     ///< kMap: whose light-space map, from 0
-  int mapLevel = 0;  ///< kMap: mip level
+  int light = 0;         ///< kMap: whose light-space map, from 0
+  int mapLevel = 0;      ///< kMap: mip level
+  bool samples = false;  ///< those of the pixel under the mouse, of the same light
 };
 
 /// Everything that a person changes in the viewer and can undo. Plain data.

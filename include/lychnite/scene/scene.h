@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "lychnite/mesh/animation.h"
 #include "lychnite/mesh/mesh.h"
 #include "lychnite/optics/coefficients.h"
 
@@ -28,11 +29,18 @@ struct Object {
   std::string name;   ///< for messages, "" is fine
   std::string model;  ///< where the mesh came from: a path or a built-in's name (written to scene files)
   std::shared_ptr<const Mesh> mesh;
+  std::shared_ptr<const MeshAnimation> animation;  ///< what can move in the model's file; null: nothing
+  std::string clip;                                ///< that `mesh` shows a moment of, see setPose(); "": rest
+  double time = 0;                                 ///< of the moment, s
   Material material;
   double size = 20;        ///< mm, > 0
   glm::dvec3 position{0};  ///< mm
   glm::dquat rotation{1, 0, 0, 0};
 };
+
+/// Shows a moment of one of the object's clips, or the mesh at rest for "". Its size and place are those of
+/// the mesh at rest. Throws Error (Kind::kUsage) for a clip that the model does not have, naming the nearest.
+void setPose(Object& object, const std::string& clip, double seconds);
 
 /// Light from infinitely far. `irradiance` is E0 on a surface facing it; pi makes white Lambertian
 /// radiance 1.

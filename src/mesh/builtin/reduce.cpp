@@ -115,6 +115,7 @@ class Reducer {
 
   std::vector<unsigned> neighbours(unsigned v) const {
     std::vector<unsigned> list;
+    list.reserve(2 * around_[v].size());
     for (unsigned t : around_[v])
       for (int k = 0; k < 3; ++k)
         if (s_.triangles[t][k] != v) list.push_back(s_.triangles[t][k]);
@@ -125,12 +126,13 @@ class Reducer {
 
   /// Exactly the two opposite corners may be neighbours of both ends.
   bool linkHolds(unsigned a, unsigned b) const {
+    constexpr size_t kMostNeighbours = 10;  // a vertex with more has thin triangles
+    // A vertex of a closed surface has as many neighbours as triangles.
+    if (around_[a].size() + around_[b].size() - 4 > kMostNeighbours) return false;
     const std::vector<unsigned> na = neighbours(a), nb = neighbours(b);
     std::vector<unsigned> shared;
     std::set_intersection(na.begin(), na.end(), nb.begin(), nb.end(), std::back_inserter(shared));
-    constexpr size_t kMostNeighbours = 10;  // a vertex with more has thin triangles
-    return shared.size() == 2 && na.size() + nb.size() - 4 <= kMostNeighbours &&
-           around_[shared[0]].size() > 3 && around_[shared[1]].size() > 3;
+    return shared.size() == 2 && around_[shared[0]].size() > 3 && around_[shared[1]].size() > 3;
   }
 
   /// No triangle of `v` that stays may turn over, or become a sliver, when v moves to `place`.

@@ -5,6 +5,7 @@
 
 #include "lychnite/app/background.h"
 #include "lychnite/app/view_state.h"
+#include "lychnite/reference/reference.h"
 #include "lychnite/scene/scene_file.h"
 #include "lychnite/volume/volume.h"
 
@@ -74,6 +75,16 @@ TEST(BackgroundVolume, SaysWhatIsWrong) {
   volume.want(bad, small());
   after(volume, 1);
   EXPECT_NE(volume.problem().find("roughness"), std::string::npos) << volume.problem();
+}
+
+TEST(BackgroundDipole, IsTheJudgesPicture) {
+  BackgroundDipole dipole(1, false);
+  RenderSettings settings = small();
+  settings.components = {.multiple = true, .single = false, .surface = false};
+  dipole.want(glowing(), settings);
+  while (!dipole.newest()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  settings.method = Method::kDipole;
+  EXPECT_EQ(dipole.newest()->channel("G"), renderReference(glowing(), settings).channel("G"));
 }
 
 }  // namespace

@@ -1,4 +1,7 @@
 #include "lychnite/app/scene_moves.h"
+#include "lychnite/base/error.h"
+#include "lychnite/scene/scene_file.h"
+#include "unit/mesh/moving_box.h"
 
 #include <gtest/gtest.h>
 
@@ -103,6 +106,29 @@ TEST(SceneMoves, AWholeTurnIsNone) {
   for (int i = 0; i < 8; ++i) turnLights(scene, 45), turnObjects(scene, 45);
   EXPECT_NEAR(std::get<ParallelLight>(scene.lights[0]).azimuth, 150, 1e-9);
   EXPECT_NEAR(std::abs(scene.objects[0].rotation.w), 1, 1e-9);
+}
+
+TEST(SceneMoves, ClipsPlayOnAndBeginAgain) {
+  sample::Folder folder;
+  sample::MovingBox box;
+  box.animate(2, "rotation", sample::MovingBox::kTurns, "LINEAR", "bend");
+  Scene scene = figurine();
+  scene.objects[0] = loadObject(folder.write("box.glb", box.glb()).string());
+  const auto rest = scene.objects[0].mesh;
+  ASSERT_EQ(clipOf(scene.objects[0])->name, "bend");
+  playClips(scene, 1);  // at rest nothing plays
+  EXPECT_EQ(scene.objects[0].mesh, rest);
+  const glm::dvec3 camera = cameraFrame(scene, 100, 100).position;
+  showClip(scene, "bend", 0);
+  expectNear(cameraFrame(scene, 100, 100).position, camera, 1e-9);
+  playClips(scene, 1.5);
+  EXPECT_NEAR(scene.objects[0].time, 1.5, 1e-9);
+  EXPECT_NE(scene.objects[0].mesh, rest);
+  playClips(scene, 1);
+  EXPECT_NEAR(scene.objects[0].time, 0.5, 1e-9);  // of 2 s
+  EXPECT_THROW(setPose(scene.objects[0], "bent", 0), Error);
+  setPose(scene.objects[0], "", 0);
+  EXPECT_EQ(scene.objects[0].mesh, rest);
 }
 
 }  // namespace
