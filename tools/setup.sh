@@ -10,7 +10,7 @@ build_packages=(
   libepoxy-dev libegl-dev libegl1 libgl1 libgl1-mesa-dri
   libglfw3-dev libimgui-dev libcairo2-dev
 )
-test_packages=(libgtest-dev libgmock-dev xvfb)
+test_packages=(libgtest-dev libgmock-dev libbenchmark-dev xvfb)
 
 fail() {
   echo "$program: $1" >&2

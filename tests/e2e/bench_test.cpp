@@ -2,7 +2,9 @@
 // times that are written here.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "e2e/runner.h"
 
@@ -35,7 +37,7 @@ double passMs(const Json& row, const std::string& name) {
 
 TEST(Bench, MeasuresAndWrites) {
   const Scratch scratch;
-  const Result result = measure(scratch, {"--json", "b.json"});
+  const Result result = measure(scratch, {"--methods", "adaptive,matched", "--json", "b.json"});
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_EQ(result.err, "");
   EXPECT_NE(result.out.find("light_map"), std::string::npos);
@@ -59,6 +61,32 @@ TEST(Bench, MeasuresAndWrites) {
     else
       EXPECT_GT(passMs(row, "light_map"), 0);
   }
+}
+
+TEST(Bench, TimesVolumeAndGrowthAndTheDevice) {
+  const Scratch scratch;
+  const Result result = measure(scratch, {"--methods", "adaptive,volume", "--changes", "light", "--growth",
+                                          "--limits", "--json", "b.json"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("exponent"), std::string::npos);
+  const Json json = Json::parse(scratch.read("b.json"));
+  ASSERT_EQ(json["rows"].size(), 2u);
+  const Json& volume = json["rows"][1];
+  EXPECT_EQ(volume["method"], "volume");
+  EXPECT_GT(passMs(volume, "source"), 0) << "the light has moved";
+  EXPECT_GT(passMs(volume, "solve"), 0);
+  EXPECT_GT(int(volume["memory_bytes"]), 100'000);
+  EXPECT_GT(int(json["rows"][0]["moved_bytes"]), 150 * 150 * 16);
+  for (const auto& [name, rate] : json["limits"].items()) EXPECT_GT(double(rate), 1e3) << name;
+  std::set<std::string> over;
+  for (const Json& growth : json["growth"]) {
+    over.insert(growth["over"]);
+    ASSERT_GE(growth["points"].size(), 2u);
+    EXPECT_TRUE(std::isfinite(double(growth["exponent"])));
+    for (const Json& point : growth["points"]) EXPECT_GT(double(point["frame_ms"]["median"]), 0);
+  }
+  EXPECT_EQ(over,
+            (std::set<std::string>{"lines", "map_size", "lights", "triangles"}));  // samples: of matched
 }
 
 TEST(Bench, ComparesWithOlderResults) {

@@ -45,7 +45,7 @@ RenderSettings settingsOf(const Studio& studio, const MethodColumn& column) {
 RenderSettings walkSettings(const Studio& studio) {
   RenderSettings settings = settingsOf(studio, {.method = Method::kWalk});
   settings.noise = studio.quick() ? 0.1 : 0.03;
-  settings.timeLimit = studio.quick() ? 6 : 900;
+  settings.timeLimit = studio.quick() ? 6 : 600;
   return settings;
 }
 

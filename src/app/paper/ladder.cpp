@@ -40,7 +40,7 @@ RenderSettings settingsOf(const Studio& studio, Method method) {
   if (studio.quick()) settings.passes = 1;
   if (method != Method::kWalk) return settings;
   settings.noise = studio.quick() ? 0.2 : 0.04;
-  settings.timeLimit = studio.quick() ? 2 : 120;
+  settings.timeLimit = studio.quick() ? 2 : 60;
   return settings;
 }
 

@@ -84,7 +84,9 @@ Score scoreOf(const Image& image, const Truth& truth, double exposure) {
     return std::sqrt(std::max(0.0, (gain * gain * s.mm - 2 * gain * s.mt + s.ab) / s.count)) / mean;
   };
   Score score{.rmse = rmse(1), .bias = s.m / s.truth - 1, .gain = s.mm > 0 ? s.mt / s.mm : 1};
-  score.uncertainty = std::sqrt(s.variance) / s.count / (2 * std::max(score.rmse, 1e-3) * mean * mean);
+  // Where the square is above its own noise, that over twice the root; below, the root of the noise.
+  const double noise = std::sqrt(s.variance) / s.count / (mean * mean);
+  score.uncertainty = std::sqrt(score.rmse * score.rmse + noise) - score.rmse;
   score.rmseAfterGain = rmse(score.gain);
   score.flip = compare(image, truth.mean, {.exposure = exposure}).flip;
   score.flipAfterGain = compare(scaled(image, score.gain), truth.mean, {.exposure = exposure}).flip;

@@ -144,7 +144,7 @@ std::string tableHtml(const Table& table, const std::string& folder) {
   }
   text += "</tbody></table></div>\n";
   text += fmt::format("<figcaption>{} <a href=\"{}/{}.csv\">CSV</a></figcaption></figure>\n",
-                      escaped(table.caption), escaped(folder), escaped(table.name));
+                      prose(table.caption), escaped(folder), escaped(table.name));
   return text;
 }
 

@@ -57,7 +57,7 @@ std::string noteOf(const BenchReport& bench, const Entry& entry) {
     if (other.scene == entry.ours && !other.missing.empty()) return other.method + " " + other.missing;
   return std::string(entry.ours) == "bunny" || std::string(entry.ours) == "dragon"
              ? "the same scan"
-             : "a built-in model of about as many triangles";
+             : "built-in model of as many triangles";
 }
 
 }  // namespace
@@ -102,7 +102,8 @@ void makeSpeed(Studio& studio, Report& report) {
       bench.frames, bench.load[0], bench.load[1]);
   report.blocks.push_back(table);
   report.differs =
-      "The paper's first three models are not to be had: built-in models of about as many triangles stand "
+      "The paper's first three models are not to be had: built-in models of the same numbers of triangles "
+      "stand "
       "for them. "
       "Triangles and vertices are as drawn, after repair. Other hardware, so the two columns compare "
       "machines as much as "

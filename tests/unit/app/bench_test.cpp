@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -63,6 +64,26 @@ TEST(BenchStatistic, MedianAndDeviationIgnoreOneOutlier) {
   EXPECT_EQ(one.median, 7);
   EXPECT_EQ(one.deviation, 0);
   EXPECT_EQ(statisticOf({}).median, 0);
+}
+
+TEST(BenchGrowth, FitsTheExponentAndItsError) {
+  BenchGrowth growth;
+  for (const double value : {1.0, 2.0, 4.0, 8.0})
+    growth.points.push_back({value, {3 * std::pow(value, 1.5), 0}, {}, {}});
+  fitExponent(growth);
+  EXPECT_NEAR(growth.exponent, 1.5, 1e-12);
+  EXPECT_NEAR(growth.exponentError, 0, 1e-7);
+  // ln y off by +d, -d, -d, +d at ln x = 0, l, 2l, 3l: the slope stays, its error is sqrt(4 d^2 / 2 / (5
+  // l^2)).
+  const double d = 0.1, l = std::log(2.0);
+  const double signs[] = {1, -1, -1, 1};
+  for (size_t i = 0; i < 4; ++i) growth.points[i].frame.median *= std::exp(signs[i] * d);
+  fitExponent(growth);
+  EXPECT_NEAR(growth.exponent, 1.5, 1e-12);
+  EXPECT_NEAR(growth.exponentError, std::sqrt(2 * d * d / (5 * l * l)), 1e-9);
+  growth.points.resize(1);
+  fitExponent(growth);
+  EXPECT_EQ(growth.exponent, 0);
 }
 
 TEST(BenchCompare, DividesEachFrameByItself) {
@@ -155,7 +176,7 @@ TEST(BenchSettings, OutOfRange) {
   EXPECT_NO_THROW(validate(BenchSettings{}));
   refused([](BenchSettings& s) { s.methods.clear(); });
   refused([](BenchSettings& s) { s.methods = {Method::kWalk}; });
-  refused([](BenchSettings& s) { s.methods = {Method::kVolume}; });
+  refused([](BenchSettings& s) { s.methods = {Method::kHierarchical}; });
   refused([](BenchSettings& s) { s.frames = 0; });
   refused([](BenchSettings& s) { s.warmUp = 0; });
   refused([](BenchSettings& s) { s.models = "no/such/folder"; });
