@@ -10,9 +10,8 @@ namespace lychnite::volume {
 
 namespace {
 
-// Standard deviations of the smoothing, voxels. The least is in proportion to
-// the photons' density to the power -1/4, from kLeastWidth to kWidest; so is
-// the only one of cleanedQuickly().
+// Standard deviations of the smoothing, voxels. The least, and the only one of cleanedQuickly(), falls with
+// the sixth root of the photons' density, from kWidest to kLeastWidth.
 constexpr size_t kWidths = 4;
 constexpr double kLeastWidth = 0.5, kWidest = 4, kWidthOfOne = 1.9;
 constexpr double kPhotonsOfOne = 8;  // per voxel's face, where it is kWidthOfOne
@@ -25,15 +24,15 @@ using Field = std::vector<Lanes>;
 constexpr Lanes kZero{0, 0, 0, 0};
 
 double leastWidth(const NodeEstimate& estimate) {
-  return std::clamp(kWidthOfOne * std::pow(estimate.photons / kPhotonsOfOne, -0.25), kLeastWidth, kWidest);
+  return std::clamp(kWidthOfOne * std::pow(estimate.photons / kPhotonsOfOne, -1.0 / 6), kLeastWidth, kWidest);
 }
 
 Smoother::Response gaussian(double width) {
   return [width](double q, int) { return std::exp(-0.5 * width * width * q * q); };
 }
 
-/// A Gaussian, and once more of what it leaves out (twicing: Stuetzle & Mittal
-/// 1979): unlike the Gaussian alone it keeps curvature.
+/// A Gaussian, and once more of what it leaves out (twicing: Stuetzle & Mittal 1979): unlike the Gaussian
+/// alone it keeps curvature.
 Smoother::Response twice(double width) {
   return [width](double q, int) {
     const double g = std::exp(-0.5 * width * width * q * q);
@@ -53,8 +52,7 @@ Smoother::Filter conserving(Smoother::Filter filter) {
   return filter;
 }
 
-/// What is left of each half without the half-space's model, smoothed by each
-/// width.
+/// What is left of each half without the half-space's model, smoothed by each width.
 struct Residuals {
   Field model;
   std::vector<Field> smooth[2];
@@ -77,10 +75,9 @@ Residuals residualsOf(const Smoother& smoother, const NodeEstimate& estimate,
   return {std::move(out[2][0]), {std::move(out[0]), std::move(out[1])}};
 }
 
-/// Expected square error of the mean of both halves for each width, up to what
-/// is the same for all, in units that add up over area: a smoothed half against
-/// the other as it is holds the bias and all of a half's noise, of which the
-/// mean has half.
+/// Expected square error of the mean of both halves for each width, up to what is the same for all, in units
+/// that add up over area: a smoothed half against the other as it is holds the bias and all of a half's
+/// noise, of which the mean has half.
 Field squareErrors(const Surface& surface, const NodeEstimate& estimate, const Residuals& residuals) {
   const auto& nodes = surface.nodes();
   Field error(nodes.size(), kZero);

@@ -4,8 +4,8 @@
 
 namespace lychnite::volume {
 
-/// What is known of the light that leaves a body, flux per node: two estimates
-/// from independent photons, and the flux that enters.
+/// What is known of the light that leaves a body, flux per node: two estimates from independent photons, and
+/// the flux that enters.
 struct NodeEstimate {
   std::vector<Lanes> half[2];
   std::vector<Lanes> entering;
@@ -19,10 +19,9 @@ struct NodeFlux {
                                 ///< from cleanedQuickly()
 };
 
-/// What a half-space of the medium makes of the entering flux is known without
-/// noise (`response` to entering light of wave number q, radians per voxel);
-/// what is left is smoothed, at each place as widely as it bears, which the two
-/// halves tell (docs/volume.md).
+/// What a half-space of the medium makes of the entering flux is known without noise (`response` to entering
+/// light of wave number q, radians per voxel); what is left is smoothed, at each place as widely as it bears,
+/// which the two halves tell (docs/volume.md).
 NodeFlux cleaned(const Smoother& smoother, const Surface& surface, const NodeEstimate& estimate,
                  const Smoother::Response& response);
 

@@ -108,8 +108,8 @@ Smoother::Filter Smoother::filter(const Response& response) const {
   return coefficients;
 }
 
-/// Chebyshev's recurrence T(n + 1) = 2 S T(n) - T(n - 1) for several fluxes
-/// side by side, so that the kernel S is read once for all.
+/// Chebyshev's recurrence T(n + 1) = 2 S T(n) - T(n - 1) for several fluxes side by side, so that the kernel
+/// S is read once for all.
 template <size_t kTasks>
 std::vector<std::vector<std::vector<Lanes>>> Smoother::filteredTogether(
     const std::vector<Task>& tasks) const {

@@ -7,12 +7,10 @@
 
 namespace lychnite::volume {
 
-/// Spreads flux over the nodes of a surface: a symmetric kernel between nodes
-/// that face the same way and lie on the same or neighbouring cells, scaled
-/// (Sinkhorn & Knopp 1967) so that it conserves flux and leaves a constant
-/// radiosity as it is, at edges too. It stands for exp(-q^2 v / 2) at wave
-/// number q, v its variance; a filter of any other response is a polynomial in
-/// it (Hammond et al. 2011).
+/// Spreads flux over the nodes of a surface: a symmetric kernel between nodes that face the same way and lie
+/// on the same or neighbouring cells, scaled (Sinkhorn & Knopp 1967) so that it conserves flux and leaves a
+/// constant radiosity as it is, at edges too. It stands for exp(-q^2 v / 2) at wave number q, v its variance;
+/// a filter of any other response is a polynomial in it (Hammond et al. 2011).
 class Smoother {
  public:
   Smoother(const Grid& grid, const Surface& surface);
@@ -24,8 +22,7 @@ class Smoother {
   /// Waves that the kernel leaves less than a fiftieth of are treated alike.
   Filter filter(const Response& response) const;
 
-  /// Filters for one flux per node. All fluxes and filters together cost little
-  /// more than the widest filter.
+  /// Filters for one flux per node. All fluxes and filters together cost little more than the widest filter.
   struct Task {
     std::vector<Lanes> flux;
     std::vector<Filter> filters;

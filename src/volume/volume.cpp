@@ -39,6 +39,7 @@ struct LightField {
   std::vector<Deposits> deposits[2];
   Tally tally;
   std::vector<std::vector<Lanes>> phi[2], phiBack;        ///< solutions, kept as first guesses
+  std::vector<std::vector<Lanes>> again;                  ///< of `multiple`, light from other surfaces
   std::vector<std::vector<float>> entering;               ///< flux that enters each node, per body
   std::vector<std::vector<Lanes>> first[2], multiple[2];  ///< flux that leaves at each node, per body
   Rgb absorbed{0};
@@ -97,6 +98,7 @@ struct VolumeSolver::Impl {
   void trace(LightField& field);
   void solve(LightField& field);
   void exchangeLight(LightField& field);
+  std::vector<std::vector<Lanes>> lightThatReturns(LightField& field);
   void tell();
   NodeFlux flux(int object, Orders orders) const;
   void converge(VolumeSolver& solver, const RenderSettings& wish, const Progress& progress);
@@ -202,11 +204,19 @@ void VolumeSolver::Impl::solve(LightField& field) {
 }
 
 /// Light that leaves and meets a surface again, once by tracing and a solve; what would go on the same way is
-/// taken as a geometric series.
+/// taken as a geometric series. It is little light: made anew when the passes have doubled.
 void VolumeSolver::Impl::exchangeLight(LightField& field) {
   if (exchange->empty()) return;
   const auto start = std::chrono::steady_clock::now();
-  std::vector<std::vector<Lanes>> leaving = field.multiple[0];
+  if ((field.passes & (field.passes - 1)) == 0) field.again = lightThatReturns(field);
+  for (auto& half : field.multiple)
+    for (size_t i = 0; i < half.size(); ++i)
+      for (size_t n = 0; n < half[i].size(); ++n) half[i][n] += field.again[i][n];
+  stats.exchangeMs += since(start);
+}
+
+std::vector<std::vector<Lanes>> VolumeSolver::Impl::lightThatReturns(LightField& field) {
+  std::vector<std::vector<Lanes>> leaving = field.multiple[0], result(leaving.size());
   for (size_t i = 0; i < leaving.size(); ++i)
     for (size_t n = 0; n < leaving[i].size(); ++n)
       leaving[i][n] = 0.5f * (field.multiple[0][i][n] + field.multiple[1][i][n] + field.first[0][i][n] +
@@ -217,7 +227,7 @@ void VolumeSolver::Impl::exchangeLight(LightField& field) {
   for (size_t i = 0; i < back.size(); ++i) {
     if (!world.bodies[i]) continue;
     const DiffusionSystem& system = world.bodies[i]->system;
-    std::vector<Lanes> exits;
+    std::vector<Lanes>& exits = result[i];
     stats.iterations +=
         system.solve(back[i].source, field.phiBack[i], std::max(0.03, settings.tolerance)).iterations;
     system.exits(field.phiBack[i], exits);
@@ -227,10 +237,9 @@ void VolumeSolver::Impl::exchangeLight(LightField& field) {
     Lanes series{1, 1, 1, 1};
     for (int c = 0; c < 3; ++c)
       if (before[c] > 0) series[c] = 1 / (1 - std::min(0.9f, after[c] / before[c]));
-    for (size_t n = 0; n < exits.size(); ++n)
-      for (int half : {0, 1}) field.multiple[half][i][n] += exits[n] * series;
+    for (Lanes& exit : exits) exit *= series;
   }
-  stats.exchangeMs += since(start);
+  return result;
 }
 
 NodeFlux VolumeSolver::Impl::flux(int object, Orders orders) const {

@@ -68,6 +68,48 @@ TEST(VolumeProperty, SameBitsOnAnyNumberOfThreads) {
   EXPECT_EQ(one, two);
 }
 
+TEST(VolumeProperty, ASeedSaysWhichPicture) {
+  const Scene scene = sceneOf("figurine", "skin1", 10);
+  const auto withSeed = [&](uint64_t seed) {
+    VolumeSolver solver;
+    VolumeSettings settings = kQuick;
+    settings.seed = seed;
+    solver.update(scene, settings);
+    solver.refine();
+    return solver.vertexRadiosity(0, VolumeSolver::Orders::kAll);
+  };
+  const auto one = withSeed(7);
+  EXPECT_EQ(one, withSeed(7));
+  EXPECT_NE(one, withSeed(8));
+}
+
+TEST(VolumeProperty, NoiseIsWhatRunsDifferBy) {
+  const Scene scene = sceneOf("figurine", "fig6", 5);
+  VolumeSolver solvers[2];
+  std::vector<glm::vec3> values[2];
+  for (uint64_t i : {0, 1}) {
+    VolumeSettings settings = kQuick;
+    settings.seed = 100 + i;
+    solvers[i].update(scene, settings);
+    EXPECT_EQ(solvers[i].noise(), 0) << "not to be told from one pass";
+    for (int pass = 1; pass < 3; ++pass) solvers[i].refine();
+    values[i] = solvers[i].vertexRadiosity(0, VolumeSolver::Orders::kAll);
+  }
+  double squares = 0, sum = 0;
+  for (size_t v = 0; v < values[0].size(); ++v)
+    for (int c = 0; c < 3; ++c) {
+      const double a = double(values[0][v][c]), b = double(values[1][v][c]);
+      squares += 0.5 * (a - b) * (a - b);
+      sum += 0.5 * (a + b);
+    }
+  const double n = 3 * double(values[0].size()), seen = std::sqrt(squares / n) / (sum / n);
+  EXPECT_LT(solvers[0].noise(), 2 * seen);
+  EXPECT_GT(solvers[0].noise(), 0.5 * seen);
+  const double before = solvers[0].noise();
+  for (int pass = 3; pass < 12; ++pass) solvers[0].refine();
+  EXPECT_LT(solvers[0].noise(), 0.8 * before);
+}
+
 TEST(VolumeProperty, WhatIsKeptEqualsWhatIsMadeAfresh) {
   VolumeSolver solver;
   VolumeSettings settings = kQuick;
@@ -119,16 +161,21 @@ TEST(VolumeProperty, FirstOrderDoesNotDependOnWhereTracingEnds) {
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(sumA[c] / sumB[c], 1, 0.08) << c;
 }
 
-/// Two boxes, one behind the other seen along z, `gap` apart; the whole is 1 long in x.
-std::shared_ptr<const Mesh> twoWalls(float thickness, float gap) {
+struct Box {
+  glm::vec3 low, high;
+};
+
+/// Boxes whose faces across z have a vertex in their middles. They may overlap: the inside is that of all.
+std::shared_ptr<const Mesh> boxes(const std::vector<Box>& all) {
   Mesh mesh;
-  for (const float z : {0.0f, -thickness - gap}) {
+  for (const Box& box : all) {
     const auto first = uint32_t(mesh.positions.size());
     for (int i = 0; i < 8; ++i)
-      mesh.positions.emplace_back(i & 1 ? 1.0f : 0.0f, i & 2 ? 1.0f : 0.0f, i & 4 ? z : z - thickness);
-    // The faces across z have a vertex in their middles.
-    mesh.positions.emplace_back(0.5f, 0.5f, z - thickness);
-    mesh.positions.emplace_back(0.5f, 0.5f, z);
+      mesh.positions.emplace_back(i & 1 ? box.high.x : box.low.x, i & 2 ? box.high.y : box.low.y,
+                                  i & 4 ? box.high.z : box.low.z);
+    const glm::vec3 middle = 0.5f * (box.low + box.high);
+    mesh.positions.emplace_back(middle.x, middle.y, box.low.z);
+    mesh.positions.emplace_back(middle.x, middle.y, box.high.z);
     const uint32_t faces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
                                   {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
     for (uint32_t f = 0; f < 6; ++f) {
@@ -141,26 +188,46 @@ std::shared_ptr<const Mesh> twoWalls(float thickness, float gap) {
       }
     }
   }
-  return repairMesh(std::move(mesh), "walls").mesh;
+  return repairMesh(std::move(mesh), "boxes").mesh;
 }
 
-TEST(VolumeProperty, NothingLeaksThroughAWallOrAcrossAFold) {
-  // Walls of less than a cell, twenty absorption lengths thick, a gap of a tenth of a cell. Light from +z.
-  constexpr float kWall = 0.03f, kGap = 0.004f;
+/// Radiosity at the middles of the faces across z, of light from +z on a thing 1 m long: on the front, and
+/// the most elsewhere.
+std::pair<double, double> frontAndElsewhere(const std::shared_ptr<const Mesh>& mesh, float frontZ) {
   Scene scene;
-  scene.objects.push_back({.mesh = twoWalls(kWall, kGap), .size = 1000});
+  scene.objects.push_back({.mesh = mesh, .size = 1000});
   scene.objects[0].material.medium = {.sigma_s = Rgb(1), .sigma_a = Rgb(0.2), .eta = 1.3};
   scene.lights.push_back(ParallelLight{.azimuth = 0, .elevation = 0});
   const auto radiosity = radiosityOf(scene);
-  const auto& positions = scene.objects[0].mesh->positions;
-  double front = 0, behind = 0;
+  double front = 0, elsewhere = 0;
   for (size_t i = 0; i < radiosity.size(); ++i) {
-    if (positions[i].x != 0.5f) continue;
-    const bool lit = positions[i].z > -0.5f * kWall;
-    (lit ? front : behind) = std::max(lit ? front : behind, double(radiosity[i].x));
+    const glm::vec3& p = mesh->positions[i];
+    if (p.x != 0.5f || std::abs(p.y - 0.5f) > 0.2f) continue;
+    double& most = p.z == frontZ ? front : elsewhere;
+    most = std::max(most, double(radiosity[i].x));
   }
+  return {front, elsewhere};
+}
+
+TEST(VolumeProperty, NothingLeaksThroughAWallOrAcrossAGap) {
+  // Walls of less than a cell, twenty absorption lengths thick, a gap of a tenth of a cell.
+  constexpr float kWall = 0.03f, kGap = 0.004f;
+  const auto [front, elsewhere] = frontAndElsewhere(
+      boxes({{{0, 0, -kWall}, {1, 1, 0}}, {{0, 0, -2 * kWall - kGap}, {1, 1, -kWall - kGap}}}), 0);
   EXPECT_GT(front, 0.1);
-  EXPECT_LT(behind, 1e-3 * front);
+  EXPECT_LT(elsewhere, 1e-3 * front);
+}
+
+TEST(VolumeProperty, TheInsideOfAFoldIsDark) {
+  // Two flaps that hang together at their lower edge, a slit of a tenth of a cell between them: of the flaps'
+  // four faces only the front one is lit, though light enters the solid on both sides of the slit's bottom.
+  constexpr float kFlap = 0.03f, kSlit = 0.004f, kBack = -2 * kFlap - kSlit;
+  const auto [front, elsewhere] = frontAndElsewhere(boxes({{{0, 0, -kFlap}, {1, 1, 0}},
+                                                           {{0, 0, kBack}, {1, 1, -kFlap - kSlit}},
+                                                           {{0, -0.1f, kBack}, {1, 0.05f, 0}}}),
+                                                    0);
+  EXPECT_GT(front, 0.1);
+  EXPECT_LT(elsewhere, 1e-3 * front);
 }
 
 TEST(VolumeProperty, OpenMeshesAreAnObstacle) {
