@@ -14,7 +14,8 @@ uniform float boundRadius;    // of the object's bounding sphere, whose centre t
 uniform float spiralScale;    // half of the samples lie within this distance
 uniform float reach;          // beyond it the profile is dark in every channel
 uniform sampler2D azimuths;   // cosine and sine for turn (u) and eccentricity (v), see technique/multiple/spiral.h
-uniform int sampleCount;
+uniform int sampleCount;      // cells of the pattern where the surface faces the light
+uniform int mostGrowth;       // how many times as many it has at most, where the surface slants
 
 const float kDark = 1e-7;  // a texel with less flux is empty
 const float kTexelRadius = 0.5641896;  // of the disc with a texel's area
@@ -37,6 +38,7 @@ struct Ground {
   float window;    // radius of what the map cannot resolve around the receiver: a texel on the slanted surface
   float local;     // flux that enters at the receiver itself, per area of its surface
   float slope2;    // squared slope of the receiver's own surface where it is lit, else 0
+  float cells;     // of its pattern
 };
 
 // Height of the lit surface near uv above the plane that is z high there and rises by `slope` along the map's axes: the
@@ -82,6 +84,9 @@ Ground groundOf(LightView view, Receiver r) {
   float lit = cosI > 0.0 ? 1.0 - smoothstep(0.5 * slack, 2.0 * slack, abs(above)) : 0.0;
   g.z += lit * above;
   g.slope2 = lit * tan2;
+  // Seen from the light, what is near on a slanted surface is a strip cosI times as narrow as it is long: the round pattern
+  // needs 1 / cosI as many cells for it. Any number, whole or not, so that nothing steps over a smooth surface.
+  g.cells = float(sampleCount) * clamp(1.0 / max(abs(cosI), 1e-3), 1.0, float(mostGrowth));
   g.depth = (1.0 - lit) * above;
   g.window = kTexelRadius * g.texel * mix(1.0, sqrt(1.0 + tan2), lit);
   g.local = lit * max(cosI, 0.0) * textureLod(moments, m.xy, 0.0).x;
@@ -158,7 +163,8 @@ Cell cellOf(Ground g, Spiral s, int index) {
   vec2 phi = textureLod(azimuths, vec2((turn * (table.x - 1.0) + 0.5) / table.x, row), 0.0).xy;
   float edge = min(length(vec2(distanceToCircle(s.e0, s.rc, phi.x, phi.y), s.d)), s.farthest);
   float share = radialShare(edge, spiralScale) - s.g0;
-  vec3 at = vec3(i, i + 0.5, i + 1.0) * (1.0 / float(sampleCount) * share) + s.g0;
+  float next = min(i + 1.0, g.cells);
+  vec3 at = vec3(i, 0.5 * (i + next), next) * (share / g.cells) + s.g0;
   float ra = radiusOfShare(at.x, spiralScale);
   float rq = radiusOfShare(at.y, spiralScale);
   float rb = radiusOfShare(at.z, spiralScale);
@@ -203,14 +209,14 @@ void addCell(inout Sum sum, Ground g, Cell c, int index) {
   sum.weighted += c.area * c.area * t.x * f;
   sum.weight += c.area * c.area * t.x;
   sum.flux += c.area * t.x;
-  if (4 * index >= 3 * sampleCount) sum.faintest = min(sum.faintest, f);
+  if (4.0 * float(index) >= 3.0 * g.cells) sum.faintest = min(sum.faintest, f);
 }
 
 vec3 radiosity(LightView view, Receiver r) {
   Ground g = groundOf(view, r);
   Spiral s = spiralOf(g);
   Sum sum = Sum(vec3(0.0), vec3(0.0), 0.0, 0.0, vec3(1e30));
-  for (int i = 0; i < sampleCount; ++i) {
+  for (int i = 0; float(i) < g.cells; ++i) {
     Cell c = cellOf(g, s, i);
     if (!offTheMap(c.uv)) addCell(sum, g, c, i);
   }

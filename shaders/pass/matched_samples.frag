@@ -11,12 +11,13 @@ void main() {
   LightView view = lightView();
   Receiver r = receivers[0];
   int i = int(gl_FragCoord.x);
-  if (i == sampleCount) {
+  if (i == mostGrowth * sampleCount) {
     place = vec4(r.position, float(count));
     share = vec4(litRadiosity(view, r), 0.0);
     return;
   }
   Ground g = groundOf(view, r);
+  if (float(i) >= g.cells) return;
   Cell c = cellOf(g, spiralOf(g), i);
   float level = levelOf(g, c);
   place = vec4(c.uv, level, sqrt(c.area) / g.width);

@@ -36,6 +36,9 @@ class MultipleLatticeShading {
 /// where the surface and its light are smooth, evaluated for each pixel elsewhere.
 class MultipleMatchedShading {
  public:
+  /// A slanted surface gets up to so many times the samples of one that faces the light.
+  static constexpr int kMostGrowth = 6;
+
   MultipleMatchedShading();
   bool update(Layer& layer, const ShadingInputs& in, size_t light);
   /// The uniforms of pass/matched_sampler.glsl.

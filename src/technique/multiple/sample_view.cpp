@@ -61,6 +61,7 @@ std::optional<SeenSamples> SampleView::draw(gpu::Program& program, const Shading
                       .width = last(place, i),
                       .radiosity = vector(share, i),
                       .depth = last(share, i)};
+    if (sample.width == 0) continue;  // the pattern has fewer here
     const glm::dvec3 at = view.unproject(sample.uv, sample.depth);
     const glm::dvec3 beside = view.unproject(sample.uv + glm::dvec2(sample.width, 0), sample.depth);
     sample.position = frame.origin + at * frame.unit;
@@ -76,7 +77,8 @@ std::optional<SeenSamples> SampleView::at(const ShadingInputs& in, MultipleMatch
   for (size_t i = 0; i < in.frame.objects.size(); ++i) {
     if (!in.frame.objects[i].translucent) continue;
     sampler.setUniforms(program, in, i, light);
-    if (auto seen = draw(program, in, in.settings.multipleSamples, pixel, i, light)) return seen;
+    const int most = MultipleMatchedShading::kMostGrowth * in.settings.multipleSamples;
+    if (auto seen = draw(program, in, most, pixel, i, light)) return seen;
   }
   return {};
 }

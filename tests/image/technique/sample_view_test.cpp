@@ -58,7 +58,8 @@ TEST_F(SampleViewImage, TheMatchedSamplesAreWhereTheLightEnters) {
   const Image image = render(scene, settings);
   const auto seen = RendererTextures::samplesAt(*renderer_, scene, settings, {kSize / 2, kSize / 2}, 0);
   ASSERT_TRUE(seen);
-  ASSERT_EQ(seen->samples.size(), size_t(settings.multipleSamples));
+  ASSERT_GE(seen->samples.size(), size_t(settings.multipleSamples));
+  ASSERT_LE(seen->samples.size(), size_t(settings.multipleSamples) * 6);
   const Rgb radiated = radiosityOf(image, scene, *seen);
   Rgb sum(0);
   for (const SeenSample& sample : seen->samples) {
