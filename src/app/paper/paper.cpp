@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <ctime>
 #include <fstream>
+#include <iterator>
 #include <optional>
 
 #include "app/paper/page.h"
 #include "app/paper/parts.h"
+#include "gpu/shader_source.h"
 #include "lychnite/base/atomic_file.h"
 #include "lychnite/base/error.h"
 #include "lychnite/base/text.h"
@@ -30,6 +32,22 @@ std::string modelsText(const fs::path& folder) {
     if (const auto bytes = fs::file_size(folder / name, code); !code)
       text += fmt::format(" {} {}", name, bytes);
   return text;
+}
+
+/// What makes the pictures: the version, and the program and shaders themselves, which change more often. A
+/// file that cannot be read is left out.
+std::string programText() {
+  std::string text = versionText();
+  std::vector<fs::path> files{"/proc/self/exe"};
+  for (const auto& entry : fs::recursive_directory_iterator(gpu::findShaderDir()))
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  for (const fs::path& file : files) {
+    std::ifstream in(file, std::ios::binary);
+    const std::string bytes((std::istreambuf_iterator<char>(in)), {});
+    text += hashOf(bytes);
+  }
+  return hashOf(text);
 }
 
 std::string today() {
@@ -69,7 +87,7 @@ class Maker {
         progress_(progress),
         context_({.device = settings.device}, settings.log),
         maker_({.useCurrentContext = true, .log = settings.log}),
-        studio_(settings_, maker_, context_.device().renderer) {}
+        studio_(settings_, maker_, context_.device().renderer, programText()) {}
 
   PaperResult run() {
     PaperResult result{.page = settings_.output / "index.html"};
@@ -104,8 +122,8 @@ class Maker {
   }
 
   std::string stampOf(const Part& part) const {
-    return hashOf(fmt::format("{} {} {} {} {}{}", versionText(), part.name, part.revision, settings_.quick,
-                              studio_.device(), modelsText(settings_.models)));
+    return hashOf(fmt::format("{} {} {} {} {}{}", studio_.program(), part.name, part.revision,
+                              settings_.quick, studio_.device(), modelsText(settings_.models)));
   }
 
   bool isFinished(const Part& part) const {

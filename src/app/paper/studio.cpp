@@ -121,7 +121,7 @@ Object Studio::object(const std::string& model) {
 }
 
 std::string Studio::keyOf(const Scene& scene, const RenderSettings& settings) {
-  std::string text = versionText() + sceneToToml(scene) + textOf(settings);
+  std::string text = program_ + sceneToToml(scene) + textOf(settings);
   if (isRealTime(settings.method)) text += device_;
   for (const Object& object : scene.objects) {
     std::string& key = meshKeys_[object.mesh.get()];

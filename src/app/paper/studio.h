@@ -18,12 +18,14 @@ namespace lychnite::paper {
 /// a key of what made it, and takes it from there when it is asked for again.
 class Studio {
  public:
-  Studio(const PaperSettings& settings, ImageMaker& maker, std::string device)
-      : settings_(settings), maker_(maker), device_(std::move(device)) {}
+  /// `program` is a key of what makes the pictures.
+  Studio(const PaperSettings& settings, ImageMaker& maker, std::string device, std::string program)
+      : settings_(settings), maker_(maker), device_(std::move(device)), program_(std::move(program)) {}
 
   const PaperSettings& settings() const { return settings_; }
   bool quick() const { return settings_.quick; }
   const std::string& device() const { return device_; }  ///< name of the OpenGL device
+  const std::string& program() const { return program_; }
 
   /// Begins a part: its pictures go to `folder`, which is made. `work` is how many step()s it will take.
   void begin(const std::filesystem::path& folder, int work, const Progress& progress);
@@ -65,7 +67,7 @@ class Studio {
 
   const PaperSettings& settings_;
   ImageMaker& maker_;
-  std::string device_;
+  std::string device_, program_;
   std::filesystem::path folder_;
   std::set<std::string> files_;
   Progress progress_;
