@@ -81,23 +81,28 @@ RayLight unitPower(const RayLight& light) {
 }  // namespace
 
 Traced traceLight(const World& world, const std::vector<Emission>& emission, const RayLight& light,
-                  int collisions, uint64_t seed, int pass) {
+                  int collisions, uint64_t seed, int pass, int oneOf) {
   Traced result;
   for (auto& half : result.deposits)
     for (const auto& body : world.bodies) half.push_back(body ? Deposits(*body) : Deposits());
   for (size_t object = 0; object < world.bodies.size(); ++object) {
     if (!world.bodies[object]) continue;
     Pass one{world, emission[object], unitPower(light), object, collisions, seed, pass, {}};
-    // Later passes shift all points and numbers (Cranley & Patterson 1976).
+    // Later passes shift all points and numbers (Cranley & Patterson 1976); while there are parts of passes
+    // they take the points between those of the ones before.
+    const bool shifted = pass > 0 && oneOf == 1;
     Rng shifts(seed, uint64_t(pass));
-    for (float& s : one.shift) s = pass == 0 ? 0 : shifts.uniform();
-    const size_t count = emission[object].points().size(), blocks = (count + kBlock - 1) / kBlock;
+    for (float& s : one.shift) s = shifted ? shifts.uniform() : 0;
+    const auto step = size_t(oneOf), offset = pass == 0 ? 0 : step / 2;
+    const size_t count = (emission[object].points().size() - offset + step - 1) / step;
+    const size_t blocks = (count + kBlock - 1) / kBlock;
     std::vector<std::vector<Tracer::Record>> records(2 * blocks);
     std::vector<Tally> tallies(2 * blocks);
     tbb::parallel_for(size_t(0), 2 * blocks, [&](size_t b) {
       Tracer tracer(world, records[b]);
       const size_t begin = b / 2 * kBlock + b % 2;
-      for (size_t i = begin; i < std::min(count, (b / 2 + 1) * kBlock); i += 2) one.follow(tracer, i);
+      for (size_t i = begin; i < std::min(count, (b / 2 + 1) * kBlock); i += 2)
+        one.follow(tracer, offset + i * step);
       tallies[b] = tracer.tally();
     });
     for (size_t b = 0; b < 2 * blocks; ++b) {

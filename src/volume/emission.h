@@ -24,13 +24,14 @@ class Emission {
 };
 
 /// What a light of power 1 (irradiance, or intensity in scene units) leaves in each body: pass number `pass`
-/// of photons. Each pass has its own random numbers, always the same.
+/// of photons, from one of `oneOf` points only, each of which stands for itself: what comes out is so much
+/// less. Each pass has its own random numbers, always the same.
 struct Traced {
   std::vector<Deposits> deposits[2];  ///< of every other photon
   Tally tally;                        ///< of all
 };
 Traced traceLight(const World& world, const std::vector<Emission>& emission, const RayLight& light,
-                  int collisions, uint64_t seed, int pass);
+                  int collisions, uint64_t seed, int pass, int oneOf);
 
 /// Flux of a light of power 1 that enters each node of each body, straight from the light: the samples'
 /// cosines and Fresnel terms, and one look for shadows a node.

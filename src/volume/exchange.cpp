@@ -55,7 +55,7 @@ Exchange::Exchange(const World& world) {
 }
 
 std::vector<Deposits> Exchange::send(const World& world, const std::vector<std::vector<Lanes>>& leaving,
-                                     int collisions, uint64_t seed, Tally& tally) const {
+                                     int collisions, uint64_t seed, int oneOf, Tally& tally) const {
   // Leaving light has the angular shape S_w (docs/physics.md); over the rays' density that is Ft / C.
   std::vector<double> C(world.bodies.size(), 1), eta(C);
   for (size_t i = 0; i < C.size(); ++i)
@@ -68,11 +68,11 @@ std::vector<Deposits> Exchange::send(const World& world, const std::vector<std::
   std::vector<Tally> tallies(blocks);
   tbb::parallel_for(size_t(0), blocks, [&](size_t b) {
     Tracer tracer(world, records[b]);
-    for (size_t i = b * kBlock; i < std::min(pairs_.size(), (b + 1) * kBlock); ++i) {
+    for (size_t i = b * kBlock; i < std::min(pairs_.size(), (b + 1) * kBlock); i += size_t(oneOf)) {
       const Pair& pair = pairs_[i];
       const Lanes& all = leaving[pair.object][pair.node];
-      const auto share =
-          float(fresnelTransmittance(double(pair.cosine), eta[pair.object]) / (C[pair.object] * kRays));
+      const auto share = float(fresnelTransmittance(double(pair.cosine), eta[pair.object]) * oneOf /
+                               (C[pair.object] * kRays));
       const glm::vec3 flux = glm::vec3(all[0], all[1], all[2]) * share;
       if (!(flux.x + flux.y + flux.z > 0)) continue;
       Rng rng(seed, kStream + i);

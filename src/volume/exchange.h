@@ -20,10 +20,10 @@ class Exchange {
   bool empty() const { return pairs_.empty(); }
   size_t memoryBytes() const { return pairs_.capacity() * sizeof(Pair); }
 
-  /// Sends the flux that leaves at nodes (per body) back in where it meets a surface, as scattered light.
-  /// Returns what it deposits.
+  /// Sends the flux that leaves at nodes (per body) back in where it meets a surface, as scattered light, by
+  /// one of `oneOf` rays. Returns what it deposits.
   std::vector<Deposits> send(const World& world, const std::vector<std::vector<Lanes>>& leaving,
-                             int collisions, uint64_t seed, Tally& tally) const;
+                             int collisions, uint64_t seed, int oneOf, Tally& tally) const;
 
  private:
   std::vector<Pair> pairs_;

@@ -25,6 +25,7 @@ namespace {
 // Share of lines through a mesh along which inside may be undefined: pinholes, slivers of self-intersection.
 constexpr double kUndefined = 0.01;
 constexpr int kMostPasses = 10000;
+constexpr int kFewerReturn = 4;  // one of so many rays is sent from surface to surface before a whole pass
 constexpr int kExchangeCollisions = 2;  // of light that meets another surface, before the solver takes over
 
 double since(std::chrono::steady_clock::time_point start) {
@@ -35,6 +36,7 @@ double since(std::chrono::steady_clock::time_point start) {
 struct LightField {
   RayLight light;  ///< traced for
   int passes = 0;
+  double wholePasses = 0;  ///< of all points
   /// Two halves, of independent photons, of all bodies: sums over the passes.
   std::vector<Deposits> deposits[2];
   Tally tally;
@@ -95,7 +97,10 @@ struct VolumeSolver::Impl {
   double undefinedOf(const std::shared_ptr<const Mesh>& mesh);
   std::shared_ptr<const Shape> shapeOf(const std::shared_ptr<const Mesh>& mesh);
   bool makeBodies(const Scene& scene, const VolumeSettings& next);
+  int nextOneOf(const LightField& field) const;
+  double wholePasses() const;
   void trace(LightField& field);
+  void solveBody(LightField& field, size_t body, float each);
   void solve(LightField& field);
   void exchangeLight(LightField& field);
   std::vector<std::vector<Lanes>> lightThatReturns(LightField& field);
@@ -120,7 +125,8 @@ std::shared_ptr<const Shape> VolumeSolver::Impl::shapeOf(const std::shared_ptr<c
 bool VolumeSolver::Impl::makeBodies(const Scene& scene, const VolumeSettings& next) {
   const bool regrid = !rays || next.cells != settings.cells;
   const bool kept = !regrid && rays->adopt(scene);
-  bool stale = next.collisions != settings.collisions || next.seed != settings.seed;
+  bool stale = next.collisions != settings.collisions || next.seed != settings.seed ||
+               next.firstOneOf != settings.firstOneOf;
   const bool points = regrid || next.photons != settings.photons;
   settings = next;
   if (regrid) shapes.clear();
@@ -154,9 +160,24 @@ bool VolumeSolver::Impl::makeBodies(const Scene& scene, const VolumeSettings& ne
   return true;
 }
 
+/// The light's next pass takes one of so many points: as many as all passes before.
+int VolumeSolver::Impl::nextOneOf(const LightField& field) const {
+  const int doublings = std::clamp(field.passes - 1, 0, 30);
+  return std::max(1, settings.firstOneOf >> doublings);
+}
+
+/// Of the light that has the fewest.
+double VolumeSolver::Impl::wholePasses() const {
+  double least = fields.empty() ? 0 : fields[0].wholePasses;
+  for (const LightField& field : fields) least = std::min(least, field.wholePasses);
+  return least;
+}
+
 void VolumeSolver::Impl::trace(LightField& field) {
   const auto start = std::chrono::steady_clock::now();
-  Traced traced = traceLight(world, emission, field.light, settings.collisions, settings.seed, field.passes);
+  const int oneOf = nextOneOf(field);
+  Traced traced =
+      traceLight(world, emission, field.light, settings.collisions, settings.seed, field.passes, oneOf);
   if (field.passes == 0) {
     field.entering = enteringFlux(world, field.light);
     for (int half : {0, 1}) field.deposits[half] = std::move(traced.deposits[half]);
@@ -168,28 +189,45 @@ void VolumeSolver::Impl::trace(LightField& field) {
     field.tally += traced.tally;
   }
   ++field.passes;
+  field.wholePasses += 1.0 / oneOf;
   stats.flights += traced.tally.flights;
   stats.rays += traced.tally.rays;
   stats.sourceMs += since(start);
+}
+
+/// Each half for itself; both together after the first pass, which is not judged by its halves.
+void VolumeSolver::Impl::solveBody(LightField& field, size_t body, float each) {
+  const DiffusionSystem& system = world.bodies[body]->system;
+  std::vector<Lanes> Q[2] = {field.deposits[0][body].source, field.deposits[1][body].source};
+  std::vector<Lanes>&phi = field.phi[0][body], &other = field.phi[1][body];
+  for (size_t n = 0; n < Q[0].size(); ++n) {
+    Q[0][n] *= each;
+    Q[1][n] *= each;
+    if (field.passes == 1) Q[0][n] = 0.5f * (Q[0][n] + Q[1][n]);
+  }
+  stats.iterations += system.solve(Q[0], phi, settings.tolerance).iterations;
+  if (field.passes == 1)
+    other = phi;
+  else
+    stats.iterations += system.solve(Q[1], other, settings.tolerance).iterations;
 }
 
 void VolumeSolver::Impl::solve(LightField& field) {
   const auto start = std::chrono::steady_clock::now();
   const size_t bodies = world.bodies.size();
   field.phiBack.resize(bodies);
-  field.absorbed = field.tally.absorbed / double(field.passes);
-  const float each = 2 / float(field.passes);
+  field.absorbed = field.tally.absorbed / field.wholePasses;
+  const auto each = float(2 / field.wholePasses);
   for (int half : {0, 1}) {
     field.phi[half].resize(bodies);
     field.first[half].assign(bodies, {});
     field.multiple[half].assign(bodies, {});
-    for (size_t i = 0; i < bodies; ++i) {
-      if (!world.bodies[i]) continue;
-      const DiffusionSystem& system = world.bodies[i]->system;
-      std::vector<Lanes> Q = field.deposits[half][i].source;
-      for (Lanes& q : Q) q *= each;
-      if (half == 1 && field.phi[1][i].empty()) field.phi[1][i] = field.phi[0][i];
-      stats.iterations += system.solve(Q, field.phi[half][i], settings.tolerance).iterations;
+  }
+  for (size_t i = 0; i < bodies; ++i) {
+    if (!world.bodies[i]) continue;
+    solveBody(field, i, each);
+    const DiffusionSystem& system = world.bodies[i]->system;
+    for (int half : {0, 1}) {
       system.exits(field.phi[half][i], field.multiple[half][i]);
       field.first[half][i] = field.deposits[half][i].first;
       for (size_t n = 0; n < field.first[half][i].size(); ++n) {
@@ -223,7 +261,8 @@ std::vector<std::vector<Lanes>> VolumeSolver::Impl::lightThatReturns(LightField&
                               field.first[1][i][n]);
   Tally tally;
   const int collisions = std::min(settings.collisions, kExchangeCollisions);
-  const std::vector<Deposits> back = exchange->send(world, leaving, collisions, settings.seed, tally);
+  const int oneOf = field.wholePasses < 1 ? kFewerReturn : 1;
+  const std::vector<Deposits> back = exchange->send(world, leaving, collisions, settings.seed, oneOf, tally);
   for (size_t i = 0; i < back.size(); ++i) {
     if (!world.bodies[i]) continue;
     const DiffusionSystem& system = world.bodies[i]->system;
@@ -264,14 +303,15 @@ NodeFlux VolumeSolver::Impl::flux(int object, Orders orders) const {
     }
   }
   const double h = body.shape->grid.side();
-  estimate.photons = settings.photons * stats.passes * h * h / body.shape->surface.area();
+  estimate.photons = settings.photons * wholePasses() * h * h / body.shape->surface.area();
   const auto response = [&](double q, int c) {
     const Diffusion& d = body.system.medium().channel[c];
     const double share = entering[c] > 0 ? double(first[c] / entering[c]) : 0;
     const double one = share * std::exp(-q / (h * d.sigma_tp)), all = std::max(one, d.response(q / h));
     return orders == Orders::kAll ? all : orders == Orders::kFirst ? one : all - one;
   };
-  if (stats.passes < 2) return cleanedQuickly(body.shape->smoother, estimate, response);
+  for (const LightField& field : fields)
+    if (field.passes < 2) return cleanedQuickly(body.shape->smoother, estimate, response);
   return cleaned(body.shape->smoother, body.shape->surface, estimate, response);
 }
 
@@ -293,7 +333,7 @@ void VolumeSolver::Impl::tell() {
   for (size_t l = 0; l < fields.size(); ++l) {
     const LightField& field = fields[l];
     const Rgb power = rays->lights()[l].power;
-    const Rgb each = power / double(field.passes);
+    const Rgb each = power / field.wholePasses;
     stats.passes = std::max(stats.passes, field.passes);
     entered += field.tally.entered * each;
     left += field.tally.left * each;
@@ -339,6 +379,7 @@ void VolumeSolver::update(const Scene& scene, const VolumeSettings& settings, co
   requireRange(settings.collisions, 1, 64, "collisions");
   requireRange(settings.photons, 1024, 1 << 24, "photons");
   requireRange(settings.tolerance, 1e-6, 0.5, "tolerance");
+  requireRange(settings.firstOneOf, 1, 256, "firstOneOf");
   Impl& all = *impl_;
   all.stats = {};
   const auto start = std::chrono::steady_clock::now();
@@ -353,6 +394,7 @@ void VolumeSolver::update(const Scene& scene, const VolumeSettings& settings, co
     if (!stale && field.passes > 0 && sameRays(field.light, lights[l])) continue;
     field.light = lights[l];
     field.passes = 0;
+    field.wholePasses = 0;
     all.trace(field);
     all.solve(field);
   }
@@ -383,6 +425,7 @@ double VolumeSolver::noise() const {
     if (!impl_->world.bodies[i]) continue;
     const auto& nodes = impl_->world.bodies[i]->shape->surface.nodes();
     const NodeFlux light = impl_->flux(int(i), Orders::kAll);
+    if (light.variance.empty()) return 0;
     for (size_t n = 0; n < nodes.size(); ++n) {
       if (!(nodes[n].area > 0)) continue;
       for (int c = 0; c < 3; ++c) {

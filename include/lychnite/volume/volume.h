@@ -14,9 +14,12 @@ namespace lychnite {
 
 /// How the light inside is computed (docs/volume.md).
 struct VolumeSettings {
-  int cells = 64;           ///< along each object's longest side, 8..192
-  int collisions = 6;       ///< of each photon, traced before the diffusion equation takes over, 1..64
-  int photons = 1 << 17;    ///< starting points on each object's surface, lit or not, in one pass, 1024..2^24
+  int cells = 64;         ///< along each object's longest side, 8..192
+  int collisions = 6;     ///< of each photon, traced before the diffusion equation takes over, 1..64
+  int photons = 1 << 17;  ///< starting points on each object's surface, lit or not, in one pass, 1024..2^24
+  /// The first pass takes one of so many of the points, 1..256, for a picture at once; later ones double that
+  /// until they take all.
+  int firstOneOf = 1;
   double tolerance = 0.01;  ///< relative residual of the diffusion solve, in (0, 1)
   uint64_t seed = 1;
   bool operator==(const VolumeSettings&) const = default;

@@ -83,6 +83,33 @@ TEST(VolumeProperty, ASeedSaysWhichPicture) {
   EXPECT_NE(one, withSeed(8));
 }
 
+TEST(VolumeProperty, PassesThatGrowLeadToTheSamePicture) {
+  const Scene scene = sceneOf("figurine", "skin1", 10);
+  VolumeSettings settings = kQuick, growing = kQuick;
+  settings.tolerance = growing.tolerance = 1e-4;
+  growing.firstOneOf = 8;
+  VolumeSolver whole, parts;
+  whole.update(scene, settings);
+  parts.update(scene, growing);
+  EXPECT_LT(parts.stats().flights, 0.2 * whole.stats().flights);
+  for (int pass = 1; pass < 4; ++pass) parts.refine();  // an eighth, another, a quarter, a half
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(parts.stats().left[c], whole.stats().left[c], 0.01);
+    const double sum = parts.stats().left[c] + parts.stats().absorbed[c] + parts.stats().unscattered[c];
+    EXPECT_NEAR(sum, 1, 0.01);
+  }
+  whole.refine();
+  parts.refine();
+  double squares = 0, sum = 0;
+  const auto a = whole.vertexRadiosity(0, VolumeSolver::Orders::kAll);
+  const auto b = parts.vertexRadiosity(0, VolumeSolver::Orders::kAll);
+  for (size_t v = 0; v < a.size(); ++v) {
+    squares += double(glm::dot(a[v] - b[v], a[v] - b[v]));
+    sum += double(glm::dot(a[v], a[v]));
+  }
+  EXPECT_LT(std::sqrt(squares / sum), 0.1);
+}
+
 TEST(VolumeProperty, NoiseIsWhatRunsDifferBy) {
   const Scene scene = sceneOf("figurine", "fig6", 5);
   VolumeSolver solvers[2];
