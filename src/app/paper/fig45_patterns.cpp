@@ -158,7 +158,7 @@ void makePatterns(Studio& studio, Report& report) {
       "{0}. A cell is drawn as a square of the area that its sample stands for; colour and line width go by "
       "its mip level "
       "(thin and red: 0; thick and blue: 6 and up). At 10 cm the part around the receiver is shown four "
-      "times as large.",
+      "times as large; most of the map lies beyond the profile's reach there, and needs not to be seen.",
       mapSize);
   report.blocks.push_back(gallery);
   report.blocks.push_back(table);

@@ -81,13 +81,13 @@ void addRow(Studio& studio, Gallery& gallery, const std::vector<Shown>& shown, c
 /// Four rows: pictures, their errors, pictures after one best gain, their errors; the walk ends the first.
 Gallery galleryOf(Studio& studio, const std::vector<Shown>& shown, const Truth& truth, double size) {
   const ToneMapping tone{.exposure = exposureFor(truth.mean)};
-  Gallery gallery{.columns = int(shown.size()) + 1};
+  Gallery gallery{.title = formatLength(size), .columns = int(shown.size()) + 1};
   addRow(studio, gallery, shown, truth, false, tone);
   const std::string name = fmt::format("walk-{:g}mm", size);
   gallery.pictures[shown.size()] = {studio.show(name, truth.mean, tone), name + "-first.exr", "walk",
                                     fmt::format("noise {}, {:.2g} s", percent(truth.noise), truth.seconds)};
   addRow(studio, gallery, shown, truth, true, tone);
-  gallery.caption = fmt::format("{}, exposure {:+.2f} stops.", formatLength(size), tone.exposure);
+  gallery.caption = fmt::format("Exposure {:+.2f} stops.", tone.exposure);
   return gallery;
 }
 

@@ -73,7 +73,7 @@ class Rung {
   Gallery gallery() const {
     const std::vector<double> sizes = sizesOf(studio_);
     const ToneMapping tone{.exposure = exposureFor(columns_[0][0])};
-    Gallery gallery{.columns = int(sizes.size()) + 1, .cellWidth = 100};
+    Gallery gallery{.title = material_, .columns = int(sizes.size()) + 1, .cellWidth = 100};
     for (size_t m = 0; m <= methods_.size(); ++m) {
       if (m > 0 && !methods_[m - 1].inStrip) continue;
       const std::string method = m == 0 ? "walk" : methods_[m - 1].name;
@@ -84,8 +84,7 @@ class Rung {
             {studio_.show(file, columns_[s][m], tone), "", "", m == 0 ? formatLength(sizes[s]) : ""});
       }
     }
-    gallery.caption =
-        fmt::format("{}, one exposure ({:+.2f} stops), each method as it is.", material_, tone.exposure);
+    gallery.caption = fmt::format("One exposure ({:+.2f} stops), each method as it is.", tone.exposure);
     return gallery;
   }
 

@@ -15,6 +15,7 @@ main, header, footer { max-width: 71rem; margin: 0 auto; padding: 0 1.5rem; }
 header { padding-top: 3rem; }
 h1 { font-size: 2.1rem; line-height: 1.2; font-weight: 600; margin: 0 0 .6rem; max-width: 46rem; }
 h2 { font-size: 1.35rem; line-height: 1.3; font-weight: 600; margin: 0 0 .6rem; }
+h3 { font-size: 1.05rem; font-weight: 600; margin: 0 0 .5rem; }
 p { max-width: 46rem; margin: .6rem 0; }
 .lead { font-size: 1.1rem; color: #333; }
 nav { border-top: 1px solid #1c1c1c; border-bottom: 1px solid #ccc; padding: .7rem 0; margin: 1.6rem 0 0; font-size: .92rem; line-height: 1.9; }
@@ -100,9 +101,9 @@ std::string cellHtml(const Picture& picture, const std::string& folder) {
 
 std::string galleryHtml(const Gallery& gallery, const std::string& folder) {
   const std::string width = gallery.cellWidth > 0 ? fmt::format("{}px", gallery.cellWidth) : "1fr";
-  std::string text =
-      fmt::format("<figure><div class=\"grid\" style=\"grid-template-columns: repeat({}, minmax(0, {}))\">\n",
-                  gallery.columns, width);
+  std::string text = fmt::format(
+      "<figure>{}<div class=\"grid\" style=\"grid-template-columns: repeat({}, minmax(0, {}))\">\n",
+      gallery.title.empty() ? "" : "<h3>" + escaped(gallery.title) + "</h3>", gallery.columns, width);
   for (const Picture& picture : gallery.pictures) text += cellHtml(picture, folder);
   text += "</div>\n";
   if (!gallery.caption.empty()) text += fmt::format("<figcaption>{}</figcaption>", prose(gallery.caption));
@@ -201,10 +202,9 @@ std::string htmlOf(const Page& page) {
     text += " <code>lychnite paper</code> on the same folder goes on.</p>\n";
   }
   text +=
-      "<p>K. Yao, B. Wang et al. are cited as the paper: Yao and Wang, <i>Real-Time Rendering of Translucent "
-      "Objects "
-      "with Variable Sizes</i>, 2009. Pictures are linear radiance through the sRGB curve at the stated "
-      "exposure; the "
+      "<p>The paper: Yao and Wang, <i>Real-Time Rendering of Translucent Objects with Variable Sizes</i>, "
+      "2009. "
+      "Pictures are linear radiance through the sRGB curve at the stated exposure; the "
       "EXR files hold the radiance itself with the scene that made it.</p>\n</footer>\n</body>\n</html>\n";
   return text;
 }

@@ -42,7 +42,8 @@ Table tableFrom(const Json& json) {
 }
 
 Json toJson(const Gallery& gallery) {
-  Json json{{"gallery", Json::array()},
+  Json json{{"title", gallery.title},
+            {"gallery", Json::array()},
             {"columns", gallery.columns},
             {"cell_width", gallery.cellWidth},
             {"caption", gallery.caption}};
@@ -52,8 +53,10 @@ Json toJson(const Gallery& gallery) {
 }
 
 Gallery galleryFrom(const Json& json) {
-  Gallery gallery{
-      .columns = json.at("columns"), .cellWidth = json.at("cell_width"), .caption = json.at("caption")};
+  Gallery gallery{.title = json.at("title"),
+                  .columns = json.at("columns"),
+                  .cellWidth = json.at("cell_width"),
+                  .caption = json.at("caption")};
   for (const Json& p : json.at("gallery"))
     gallery.pictures.push_back({p.at("file"), p.at("exr"), p.at("label"), p.at("detail")});
   return gallery;

@@ -43,6 +43,7 @@ struct Picture {
 
 /// Pictures in a grid of `columns` with one caption.
 struct Gallery {
+  std::string title{};  ///< above it; may be empty
   std::vector<Picture> pictures;
   int columns = 3;
   int cellWidth = 0;  ///< at most, in pixels of the page; 0: what there is room for
