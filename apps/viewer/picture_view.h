@@ -78,7 +78,8 @@ Area mapInset(const Area& picture);
 class Pace {
  public:
   static constexpr double kTargetMs = 40;
-  explicit Pace(bool software) : scale_(software ? 0.375 : 1) {}
+  /// Software begins as coarse as it gets, for the sake of the first picture.
+  explicit Pace(bool software) : scale_(software ? 0.1875 : 1) {}
   double scale() const { return scale_; }
   /// A frame that drew at scale() took `ms`, of which `idleMs` goes into frames that draw nothing.
   void measured(double ms, double idleMs);

@@ -214,7 +214,7 @@ TEST_F(View, AnimationsPlayAndAreKeptByTheScene) {
   const Result result =
       play("box.glb",
            "key g\nclick @section-material\nclick @section-light\nwait rest\nscreenshot rest.png\n"
-                             "key p\nwait 60\nkey p\nwait rest\n"
+           "key p\nwait 60\nkey p\nwait rest\n"
            "screenshot bent.png\nkey ctrl+s\nkey ctrl+p\nwait rest\n"
            "drag @time:0.5,0.5 @time:1,0.5\nwait rest\nscreenshot end.png\nkey ctrl+z\nwait rest\n"
            "screenshot again.png\n");
