@@ -100,8 +100,11 @@ void drawWipe(PanelContext& context, ImDrawList& draw, const Area& area) {
   draw.AddCircleFilled(toIm(grip), 6 * s, IM_COL32(230, 230, 230, 210), 20);
   context.ui.mark("wipe", {grip - glm::dvec2(6 * s), grip + glm::dvec2(6 * s)});
   const double width = double(ImGui::CalcTextSize(left.c_str()).x);
-  text(draw, {std::max(area.low.x + 12 * s, x - width - 10 * s), area.low.y + 10 * s}, kInk, left);
-  text(draw, {x + 10 * s, area.low.y + 10 * s}, kInk, right);
+  const double from = std::max(area.low.x + 12 * s, x - width - 10 * s);
+  // Where there is no room for the left one before the line, the right one goes below it.
+  const double down = from + width > x ? 10 * s + double(ImGui::GetTextLineHeightWithSpacing()) : 10 * s;
+  text(draw, {from, area.low.y + 10 * s}, kInk, left);
+  text(draw, {x + 10 * s, area.low.y + down}, kInk, right);
 }
 
 /// The chosen light's direction, while the hand turns it.
