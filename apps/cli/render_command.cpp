@@ -143,7 +143,7 @@ RenderSettings settingsFromFlags(const Flags& flags) {
   settings.profile = parseProfileKind(flags.profile, "--profile");
   if (!flags.components.empty()) settings.components = parseComponents(flags.components, "--components");
   if (!flags.aov.empty()) settings.aovs = split(flags.aov, ',');
-  if (!flags.map.empty()) settings.mapSize = wholeNumber(flags.map, "--map");
+  if (!flags.map.empty()) settings.mapSize = settings.mostMapSize = wholeNumber(flags.map, "--map");
   if (!flags.samples.empty()) {
     if (settings.method == Method::kWalk)
       settings.samples = parseNumber(flags.samples, "--samples");
@@ -304,16 +304,18 @@ void addMethodFlags(CLI::App& command, Flags& flags) {
   command.add_option("--profile", flags.profile,
                      "dipole (default), better-dipole, normalized-diffusion or tabulated");
   command.add_option("--components", flags.components, "any of multiple,single,surface (default all)");
-  command.add_option(
-      "--samples", flags.samples,
-      "matched: samples a pixel, 8 to 128 (32); volume: passes of photons (4); walk: photons per "
-      "pixel (16); adaptive, fixed: single-scattering samples (8)");
+  command.add_option("--samples", flags.samples,
+                     "matched: samples a pixel that faces the light, 8 to 128 (24); volume: passes of "
+                     "photons (4); walk: photons per "
+                     "pixel (16); adaptive, fixed: single-scattering samples (8)");
   command.add_option("--cells", flags.cells, "volume: cells along an object's longest side, 8 to 192 (64)");
   command.add_option("--collisions", flags.collisions,
                      "volume: collisions traced before the diffusion equation takes over, 1 to 64 (6)");
   command.add_option("--single-samples", flags.singleSamples,
                      "single-scattering samples along the refracted ray (8)");
-  command.add_option("--map", flags.map, "light-space map size, 128 to 4096 (512)");
+  command.add_option(
+      "--map", flags.map,
+      "light-space map size, 128 to 4096 (512; matched: up to 2048 where the mean free path is short)");
   command.add_option("--interpolation", flags.interpolation,
                      "matched: interpolate where neighbours differ less (8%; 0 evaluates every pixel)");
   command.add_option("--tolerance", flags.tolerance, "dipole: relative error to refine to (0.5%)");

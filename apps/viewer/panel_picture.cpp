@@ -44,14 +44,20 @@ void chooseProfile(Ui& ui, ProfileKind& profile) {
     profile = profiles()[size_t(index)];
 }
 
-void chooseMap(Ui& ui, int& mapSize) {
-  static const std::vector<int> sizes{128, 256, 512, 1024, 2048, 4096};
-  std::vector<std::string> names;
-  for (const int size : sizes) names.push_back(fmt::format("{} x {}", size, size));
-  int index = indexOf(sizes, mapSize);
-  if (ui.choice("Map", "The light-space map: the object as the light sees it. Finer maps show finer shadows.",
-                index, names))
-    mapSize = sizes[size_t(index)];
+void chooseMap(Ui& ui, RenderSettings& settings) {
+  static const std::vector<int> sizes{0, 128, 256, 512, 1024, 2048, 4096};
+  const RenderSettings usual;
+  std::vector<std::string> names{"by the material"};
+  for (size_t i = 1; i < sizes.size(); ++i) names.push_back(fmt::format("{} x {}", sizes[i], sizes[i]));
+  int index = settings.mostMapSize > settings.mapSize ? 0 : indexOf(sizes, settings.mapSize);
+  if (!ui.choice(
+          "Map",
+          "The light-space map: the object as the light sees it. By the material: 512 x 512, up to 2048 x "
+          "2048 where the mean free path is short beside the object.",
+          index, names))
+    return;
+  settings.mapSize = index == 0 ? usual.mapSize : sizes[size_t(index)];
+  settings.mostMapSize = index == 0 ? usual.mostMapSize : settings.mapSize;
 }
 
 void drawTone(PanelContext& context) {
@@ -189,7 +195,7 @@ void drawMethodSection(PanelContext& context) {
   }
   ui.slider("Along the ray", "Samples of single scattering along the refracted eye ray.",
             settings.singleSamples, 1, 64);
-  chooseMap(ui, settings.mapSize);
+  chooseMap(ui, settings);
   ui.check("Multiple", "Light scattered more than once.", settings.components.multiple);
   ImGui::SameLine();
   ui.check("Single", "Light scattered once.", settings.components.single);

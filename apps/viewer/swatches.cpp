@@ -30,9 +30,12 @@ bool Swatches::drawOne(Display& display) {
     if (swatch && swatch->key == key_) continue;
     if (!renderer_) renderer_ = std::make_unique<Renderer>(options_);
     scene_.objects.front().material.medium = materialLibrary()[i].coefficients;
-    renderer_->draw(
-        scene_,
-        {.width = pixels_, .height = pixels_, .multipleSamples = 16, .singleSamples = 4, .mapSize = 128});
+    renderer_->draw(scene_, {.width = pixels_,
+                             .height = pixels_,
+                             .multipleSamples = 16,
+                             .singleSamples = 4,
+                             .mapSize = 128,
+                             .mostMapSize = 128});
     if (!swatch || swatch->texture.width() != pixels_) {
       swatch.reset();
       gpu::Texture texture({.label = "swatch",

@@ -15,7 +15,7 @@ uniform float spiralScale;    // half of the samples lie within this distance
 uniform float reach;          // beyond it the profile is dark in every channel
 uniform sampler2D azimuths;   // cosine and sine for turn (u) and eccentricity (v), see technique/multiple/spiral.h
 uniform int sampleCount;      // cells of the pattern where the surface faces the light
-uniform int mostGrowth;       // how many times as many it has at most, where the surface slants
+uniform float mostRefinement;  // doublings of their number, at most, where the surface slants
 
 const float kDark = 1e-7;  // a texel with less flux is empty
 const float kTexelRadius = 0.5641896;  // of the disc with a texel's area
@@ -38,7 +38,7 @@ struct Ground {
   float window;    // radius of what the map cannot resolve around the receiver: a texel on the slanted surface
   float local;     // flux that enters at the receiver itself, per area of its surface
   float slope2;    // squared slope of the receiver's own surface where it is lit, else 0
-  float cells;     // of its pattern
+  float refinement;  // doublings of the pattern's cells
 };
 
 // Height of the lit surface near uv above the plane that is z high there and rises by `slope` along the map's axes: the
@@ -85,8 +85,8 @@ Ground groundOf(LightView view, Receiver r) {
   g.z += lit * above;
   g.slope2 = lit * tan2;
   // Seen from the light, what is near on a slanted surface is a strip cosI times as narrow as it is long: the round pattern
-  // needs 1 / cosI as many cells for it. Any number, whole or not, so that nothing steps over a smooth surface.
-  g.cells = float(sampleCount) * clamp(1.0 / max(abs(cosI), 1e-3), 1.0, float(mostGrowth));
+  // needs 1 / cosI as many cells for it.
+  g.refinement = clamp(-log2(max(abs(cosI), 1e-3)), 0.0, mostRefinement);
   g.depth = (1.0 - lit) * above;
   g.window = kTexelRadius * g.texel * mix(1.0, sqrt(1.0 + tan2), lit);
   g.local = lit * max(cosI, 0.0) * textureLod(moments, m.xy, 0.0).x;
@@ -155,7 +155,7 @@ struct Cell {
   float area;      // scene units, across the light
 };
 
-Cell cellOf(Ground g, Spiral s, int index) {
+Cell cellOf(Ground g, Spiral s, float cells, int index) {
   float i = float(index);
   vec2 table = vec2(textureSize(azimuths, 0));
   float row = (s.e / 0.9 * (table.y - 1.0) + 0.5) / table.y;
@@ -163,8 +163,7 @@ Cell cellOf(Ground g, Spiral s, int index) {
   vec2 phi = textureLod(azimuths, vec2((turn * (table.x - 1.0) + 0.5) / table.x, row), 0.0).xy;
   float edge = min(length(vec2(distanceToCircle(s.e0, s.rc, phi.x, phi.y), s.d)), s.farthest);
   float share = radialShare(edge, spiralScale) - s.g0;
-  float next = min(i + 1.0, g.cells);
-  vec3 at = vec3(i, 0.5 * (i + next), next) * (share / g.cells) + s.g0;
+  vec3 at = vec3(i, i + 0.5, i + 1.0) * (share / cells) + s.g0;
   float ra = radiusOfShare(at.x, spiralScale);
   float rq = radiusOfShare(at.y, spiralScale);
   float rb = radiusOfShare(at.z, spiralScale);
@@ -177,11 +176,9 @@ Cell cellOf(Ground g, Spiral s, int index) {
   return c;
 }
 
-bool offTheMap(vec2 uv) { return uv.x < 0.0 || uv.y < 0.0 || uv.x > 1.0 || uv.y > 1.0; }
-
 float levelOf(Ground g, Cell c) { return max(0.0, 0.5 * log2(c.area) - log2(g.texel) - 1.0); }
 
-void addCell(inout Sum sum, Ground g, Cell c, int index) {
+void addCell(inout Sum sum, Ground g, Cell c, bool outermost) {
   float level = levelOf(g, c);
   vec4 t = textureLod(moments, c.uv, level);
   if (t.x < kDark) return;
@@ -209,25 +206,34 @@ void addCell(inout Sum sum, Ground g, Cell c, int index) {
   sum.weighted += c.area * c.area * t.x * f;
   sum.weight += c.area * c.area * t.x;
   sum.flux += c.area * t.x;
-  if (4.0 * float(index) >= 3.0 * g.cells) sum.faintest = min(sum.faintest, f);
+  if (outermost) sum.faintest = min(sum.faintest, f);
 }
 
-vec3 radiosity(LightView view, Receiver r) {
-  Ground g = groundOf(view, r);
-  Spiral s = spiralOf(g);
+// The map is dark beyond its border, and its coarse levels fade there.
+vec3 patternRadiosity(Ground g, Spiral s, float cells) {
   Sum sum = Sum(vec3(0.0), vec3(0.0), 0.0, 0.0, vec3(1e30));
-  for (int i = 0; float(i) < g.cells; ++i) {
-    Cell c = cellOf(g, s, i);
-    if (!offTheMap(c.uv)) addCell(sum, g, c, i);
-  }
+  for (int i = 0; float(i) < cells; ++i) addCell(sum, g, cellOf(g, s, cells, i), 4.0 * float(i) >= 3.0 * cells);
   // What the samples missed of the known total flux, spread like the samples (a control variate), tapered where they
   // missed so much that the estimate means nothing.
   float total = textureLod(moments, vec2(0.5), 30.0).x * g.width * g.width;
   float missed = total - sum.flux;
   float taper = max(0.0, 1.0 - pow(missed / max(1e-9, 0.4 * total), 2.0));
   vec3 beta = min(sum.weighted / max(1e-20, sum.weight), 1.5 * sum.faintest);
-  return max(vec3(0.0), sum.radiosity + beta * (taper * missed)) +
-         (profileP(0.0) - profileP(g.window)) * g.local;
+  return max(vec3(0.0), sum.radiosity + beta * (taper * missed));
+}
+
+vec3 radiosity(LightView view, Receiver r) {
+  Ground g = groundOf(view, r);
+  Spiral s = spiralOf(g);
+  // From one number of cells to twice as many by a cross-fade: a pattern that grew cell by cell would show as rings.
+  float coarse = floor(g.refinement);
+  float finer = smoothstep(0.75, 1.0, g.refinement - coarse);
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < 2; ++i) {
+    float w = i == 0 ? 1.0 - finer : finer;
+    if (w > 0.0) sum += w * patternRadiosity(g, s, float(sampleCount) * exp2(coarse + float(i)));
+  }
+  return sum + (profileP(0.0) - profileP(g.window)) * g.local;
 }
 
 // Power of the light at the receiver's depth, per flux of the map.

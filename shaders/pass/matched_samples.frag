@@ -11,19 +11,19 @@ void main() {
   LightView view = lightView();
   Receiver r = receivers[0];
   int i = int(gl_FragCoord.x);
-  if (i == mostGrowth * sampleCount) {
+  if (i == sampleCount << int(mostRefinement)) {
     place = vec4(r.position, float(count));
     share = vec4(litRadiosity(view, r), 0.0);
     return;
   }
   Ground g = groundOf(view, r);
-  if (float(i) >= g.cells) return;
-  Cell c = cellOf(g, spiralOf(g), i);
+  float cells = float(sampleCount) * exp2(floor(g.refinement + 0.125));  // of the pattern that has more of the weight
+  if (float(i) >= cells) return;
+  Cell c = cellOf(g, spiralOf(g), cells, i);
   float level = levelOf(g, c);
   place = vec4(c.uv, level, sqrt(c.area) / g.width);
-  if (offTheMap(c.uv)) return;
   Sum sum = Sum(vec3(0.0), vec3(0.0), 0.0, 0.0, vec3(1e30));
-  addCell(sum, g, c, i);
+  addCell(sum, g, c, false);
   vec2 m = textureLod(moments, c.uv, level).xy;
   share = vec4(powerAt(view, r) * sum.radiosity, m.x > kDark ? centreDepth - m.y / m.x : 0.0);
 }

@@ -47,6 +47,7 @@ RenderSettings settingsOf(Method method, bool quick) {
   settings.method = method;
   if (quick) settings.width = settings.height = 150;
   if (quick) settings.mapSize = 256;
+  settings.mostMapSize = settings.mapSize;
   return settings;
 }
 

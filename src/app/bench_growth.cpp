@@ -85,6 +85,7 @@ Case caseOf(const Over& over, double value, Method method, bool quick) {
     result.scene.objects[0].mesh = bodyOf(value);
     result.value = double(result.scene.objects[0].mesh->triangles.size());
   }
+  result.settings.mostMapSize = result.settings.mapSize;
   return result;
 }
 

@@ -54,7 +54,7 @@ std::string statsJson(const Image& image, const RenderSettings& settings, const 
     json["triangles"] = stats->triangles;
     json["vertices"] = stats->vertices;
     json["covered_pixels"] = stats->coveredPixels;
-    json["map_size"] = settings.mapSize;
+    json["map_size"] = stats->mapSize;
     json["single_samples"] = settings.singleSamples;
     json["map_bytes"] = stats->mapBytes;
     json["gpu_bytes"] = stats->gpuBytes;

@@ -20,9 +20,10 @@ std::string materialKey(const Material& material) {
 }
 
 std::string settingsKey(const RenderSettings& s) {
-  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {}", methodName(s.method), profileName(s.profile),
-                     componentsName(s.components), s.multipleSamples, s.lattice.C1, s.lattice.C2, s.lattice.K,
-                     s.singleSamples, s.mapSize, s.seed, s.samples, s.cells, s.collisions);
+  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {}", methodName(s.method),
+                     profileName(s.profile), componentsName(s.components), s.multipleSamples, s.lattice.C1,
+                     s.lattice.C2, s.lattice.K, s.singleSamples, s.mapSize, s.mostMapSize, s.seed, s.samples,
+                     s.cells, s.collisions);
 }
 
 std::string variantKey(const Variant& v) {
@@ -109,7 +110,7 @@ std::string renderCommand(const ViewState& state, const std::string& scenePath,
   add(s.method == Method::kMatched && s.multipleSamples != usual.multipleSamples,
       fmt::format("--samples {}", s.multipleSamples));
   add(s.singleSamples != usual.singleSamples, fmt::format("--single-samples {}", s.singleSamples));
-  add(s.mapSize != usual.mapSize, fmt::format("--map {}", s.mapSize));
+  add(s.mostMapSize == s.mapSize, fmt::format("--map {}", s.mapSize));
   add(s.method == Method::kVolume && s.cells != usual.cells, fmt::format("--cells {}", s.cells));
   add(s.method == Method::kVolume && s.collisions != usual.collisions,
       fmt::format("--collisions {}", s.collisions));

@@ -93,6 +93,8 @@ void validate(const RenderSettings& settings) {
            fmt::format("{}x{}", settings.width, settings.height));
   if (settings.mapSize < 128 || settings.mapSize > 4096)
     refuse("map", "a size from 128 to 4096 texels", fmt::format("{}", settings.mapSize));
+  if (settings.mostMapSize > 4096)
+    refuse("map", "at most 4096 texels", fmt::format("up to {}", settings.mostMapSize));
   requireRange(settings.multipleSamples, 8, 128, "multiple samples");
   requireRange(settings.interpolation, 0, 1, "interpolation");
   requireRange(settings.singleSamples, 1, 256, "single samples");

@@ -28,6 +28,25 @@ double seconds() {
 
 }  // namespace
 
+namespace {
+
+/// Texels along a side of the light-space maps; see RenderSettings::mostMapSize.
+int mapSizeOf(const Frame& frame, const RenderSettings& settings) {
+  int size = settings.mapSize;
+  if (settings.method != Method::kMatched || !settings.components.multiple) return size;
+  for (const FrameObject& object : frame.objects) {
+    if (!object.translucent) continue;
+    const Rgb sigma = object.medium.sigma_tp();
+    double freePath = 0;
+    for (int c = 0; c < 3; ++c) freePath += 1 / (3 * std::max(sigma[c], 1e-30));
+    const auto texel = [&] { return 2 * object.bounds.radius / size; };
+    while (texel() > 0.25 * freePath && size * 2 <= settings.mostMapSize) size *= 2;
+  }
+  return size;
+}
+
+}  // namespace
+
 struct Renderer::Impl {
   explicit Impl(const RendererOptions& options)
       : context({.device = options.device, .debug = options.debug, .current = options.useCurrentContext},
@@ -79,7 +98,8 @@ void Renderer::Impl::draw(const Scene& scene, const RenderSettings& settings, co
   frame = makeFrame(scene, settings.width, settings.height);
   meshes.update(frame);
   profiles.update(frame, settings.profile, profileMaker, progress);
-  const LightMapNeeds needs{.size = settings.mapSize,
+  stats.mapSize = mapSizeOf(frame, settings);
+  const LightMapNeeds needs{.size = stats.mapSize,
                             .cosine = true,
                             .fiveChannels = settings.method == Method::kFixed && settings.components.multiple,
                             .moments = settings.method == Method::kMatched && settings.components.multiple,
@@ -153,7 +173,7 @@ void Renderer::Impl::describe(Image& image, const RenderSettings& settings) cons
   image.metadata["method"] = methodName(settings.method);
   image.metadata["profile"] = profileName(settings.profile);
   image.metadata["components"] = componentsName(settings.components);
-  image.metadata["map"] = std::to_string(settings.mapSize);
+  image.metadata["map"] = std::to_string(stats.mapSize);
   image.metadata["single_samples"] = std::to_string(settings.singleSamples);
   image.metadata["device"] = context.device().renderer;
   image.metadata["driver"] = context.device().version;

@@ -118,7 +118,7 @@ void MultipleMatchedShading::setUniforms(gpu::Program& program, const ShadingInp
   program.set("spiralScale", profile.spiralScale);
   program.set("reach", profile.reach);
   program.set("sampleCount", in.settings.multipleSamples);
-  program.set("mostGrowth", kMostGrowth);
+  program.set("mostRefinement", float(kMostRefinement));
 }
 
 void MultipleMatchedShading::drawCoarse(const ShadingInputs& in, size_t object, size_t light) {

@@ -36,8 +36,8 @@ class MultipleLatticeShading {
 /// where the surface and its light are smooth, evaluated for each pixel elsewhere.
 class MultipleMatchedShading {
  public:
-  /// A slanted surface gets up to so many times the samples of one that faces the light.
-  static constexpr int kMostGrowth = 6;
+  /// How often the samples of a slanted surface are doubled, at most, against one that faces the light.
+  static constexpr int kMostRefinement = 2;
 
   MultipleMatchedShading();
   bool update(Layer& layer, const ShadingInputs& in, size_t light);

@@ -36,13 +36,16 @@ struct RenderSettings {
   Method method = Method::kMatched;
   ProfileKind profile = ProfileKind::kDipole;
   Components components;
-  int multipleSamples = 32;  ///< matched, 8..128
+  int multipleSamples = 24;  ///< matched: at a surface that faces the light, 8..128
   /// matched: largest relative difference between evaluations two pixels apart that is interpolated across,
   /// 0..1; 0 evaluates every pixel for itself.
   double interpolation = 0.08;
   LatticeConstants lattice;  ///< adaptive, fixed
   int singleSamples = 8;     ///< along the refracted ray (real-time methods), 1..256
   int mapSize = 512;         ///< light-space map, 128..4096
+  /// matched: the map is doubled, up to this, while a texel is longer than a quarter of an object's reduced
+  /// mean free path (mean of RGB); mapSize keeps it as it is.
+  int mostMapSize = 2048;
   double samples = 16;       ///< walk: photons per pixel
   double tolerance = 0.005;  ///< dipole: relative error to refine to
   double timeLimit = 0;      ///< walk, volume: seconds, 0 = none

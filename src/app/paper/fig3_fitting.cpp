@@ -19,7 +19,7 @@ RenderSettings settingsOf(const Studio& studio, Method method) {
   settings.width = studio.quick() ? 120 : 360;
   settings.height = studio.quick() ? 160 : 480;
   settings.method = method;
-  settings.mapSize = 256;
+  settings.mapSize = settings.mostMapSize = 256;
   return settings;
 }
 

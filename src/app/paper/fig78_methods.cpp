@@ -37,6 +37,7 @@ RenderSettings settingsOf(const Studio& studio, const MethodColumn& column) {
   settings.width = studio.quick() ? 90 : 300;
   settings.height = studio.quick() ? 120 : 400;
   settings.method = column.method;
+  settings.mostMapSize = settings.mapSize;  // the paper's
   settings.lattice = column.lattice;
   if (studio.quick()) settings.passes = 1;
   return settings;

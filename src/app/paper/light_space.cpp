@@ -73,7 +73,7 @@ struct Spiral {
 FluxMap::FluxMap(Renderer& renderer, const Scene& scene, int size) : size_(size) {
   RenderSettings settings;
   settings.width = settings.height = 16;
-  settings.mapSize = size;
+  settings.mapSize = settings.mostMapSize = size;
   settings.components = {.multiple = true, .single = false, .surface = false};
   renderer.draw(scene, settings);
   const LightMapPass::Map& map = RendererTextures::maps(renderer).get(0, 0);

@@ -29,10 +29,10 @@ bool isRealTime(Method method) {
 /// All of the settings that any method reads; threads and the layers asked for change no pixel.
 std::string textOf(const RenderSettings& s) {
   std::string text = fmt::format(
-      "{}x{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", s.width, s.height, methodName(s.method),
-      profileName(s.profile), componentsName(s.components), s.multipleSamples, s.interpolation, s.lattice.C1,
-      s.lattice.C2, s.lattice.K, s.singleSamples, s.mapSize, s.samples, s.tolerance, s.timeLimit, s.noise,
-      s.cells, s.collisions, s.passes, s.seed);
+      "{}x{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", s.width, s.height,
+      methodName(s.method), profileName(s.profile), componentsName(s.components), s.multipleSamples,
+      s.interpolation, s.lattice.C1, s.lattice.C2, s.lattice.K, s.singleSamples, s.mapSize, s.mostMapSize,
+      s.samples, s.tolerance, s.timeLimit, s.noise, s.cells, s.collisions, s.passes, s.seed);
   for (const std::string& aov : s.aovs) text += " " + aov;
   return text;
 }

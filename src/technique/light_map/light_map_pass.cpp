@@ -16,13 +16,15 @@ gpu::ProgramDesc mapProgram(const std::string& label, const std::string& fragmen
           .root = {}};
 }
 
-gpu::Texture mapTexture(const std::string& label, gpu::Format format, int size, gpu::Filter filter) {
+gpu::Texture mapTexture(const std::string& label, gpu::Format format, int size, gpu::Filter filter,
+                        gpu::Wrap wrap) {
   return gpu::Texture({.label = label,
                        .format = format,
                        .width = size,
                        .height = size,
                        .levels = filter == gpu::Filter::kNearest ? 1 : 0,
-                       .filter = filter});
+                       .filter = filter,
+                       .wrap = wrap});
 }
 
 Key keyOf(const LightView& view, const Frame& frame, size_t object, const LightMapNeeds& needs) {
@@ -74,16 +76,18 @@ int LightMapPass::update(const Frame& frame, const MeshCache& meshes, const Ligh
 void LightMapPass::draw(Map& map, const Frame& frame, const MeshCache& meshes, size_t object,
                         const LightMapNeeds& needs) {
   const auto fit = [&](std::optional<gpu::Texture>& texture, bool wanted, const char* label,
-                       gpu::Format format, gpu::Filter filter) {
+                       gpu::Format format, gpu::Filter filter, gpu::Wrap wrap = gpu::Wrap::kClampToEdge) {
     if (texture && (!wanted || texture->width() != needs.size)) texture.reset();
-    if (wanted && !texture) texture.emplace(mapTexture(label, format, needs.size, filter));
+    if (wanted && !texture) texture.emplace(mapTexture(label, format, needs.size, filter, wrap));
   };
   constexpr auto kSingle = gpu::Filter::kNearest, kChain = gpu::Filter::kLinearMipNearest;
   fit(depth_, true, "light map depth", gpu::Format::kDepth32f, kSingle);
   fit(map.cosine, needs.cosine, "light map", gpu::Format::kRg32f, kChain);
   fit(map.normal, needs.fiveChannels, "light map normal", gpu::Format::kRgba32f, kChain);
   fit(map.normalDepth, needs.fiveChannels, "light map normal depth", gpu::Format::kR32f, kChain);
-  fit(map.moments, needs.moments, "light map moments", gpu::Format::kRgba32f, gpu::Filter::kLinearMipLinear);
+  // Beyond the border no flux enters, and coarse levels fade there.
+  fit(map.moments, needs.moments, "light map moments", gpu::Format::kRgba32f, gpu::Filter::kLinearMipLinear,
+      gpu::Wrap::kClampToBorder);
   fit(map.farDepth, needs.farDepth, "far depth", gpu::Format::kR32f, kSingle);
   const float background = float(map.view.backgroundDepth);
   if (map.cosine) {

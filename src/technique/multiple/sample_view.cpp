@@ -77,7 +77,7 @@ std::optional<SeenSamples> SampleView::at(const ShadingInputs& in, MultipleMatch
   for (size_t i = 0; i < in.frame.objects.size(); ++i) {
     if (!in.frame.objects[i].translucent) continue;
     sampler.setUniforms(program, in, i, light);
-    const int most = MultipleMatchedShading::kMostGrowth * in.settings.multipleSamples;
+    const int most = in.settings.multipleSamples << MultipleMatchedShading::kMostRefinement;
     if (auto seen = draw(program, in, most, pixel, i, light)) return seen;
   }
   return {};

@@ -59,7 +59,7 @@ TEST_F(SampleViewImage, TheMatchedSamplesAreWhereTheLightEnters) {
   const auto seen = RendererTextures::samplesAt(*renderer_, scene, settings, {kSize / 2, kSize / 2}, 0);
   ASSERT_TRUE(seen);
   ASSERT_GE(seen->samples.size(), size_t(settings.multipleSamples));
-  ASSERT_LE(seen->samples.size(), size_t(settings.multipleSamples) * 6);
+  ASSERT_LE(seen->samples.size(), size_t(settings.multipleSamples) * 4);
   const Rgb radiated = radiosityOf(image, scene, *seen);
   Rgb sum(0);
   for (const SeenSample& sample : seen->samples) {

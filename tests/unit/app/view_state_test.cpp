@@ -45,7 +45,7 @@ TEST(ViewState, TheCommandSaysWhatDiffersFromTheDefaults) {
   state.settings.method = Method::kFixed;
   state.settings.profile = ProfileKind::kBetterDipole;
   state.settings.components.surface = false;
-  state.settings.mapSize = 256;
+  state.settings.mapSize = state.settings.mostMapSize = 256;
   state.settings.singleSamples = 4;
   state.toneMapping = {.curve = ToneMapping::Curve::kFilmic, .exposure = -1.5};
   EXPECT_EQ(renderCommand(state, "it's.toml", "a b.png", 64, 48),

@@ -67,6 +67,7 @@ TEST(Settings, OutOfRangeIsNamed) {
       {"resolution", [](RenderSettings& s) { s.width = 16385; }},
       {"map", [](RenderSettings& s) { s.mapSize = 127; }},
       {"map", [](RenderSettings& s) { s.mapSize = 4097; }},
+      {"map", [](RenderSettings& s) { s.mostMapSize = 4097; }},
       {"single samples", [](RenderSettings& s) { s.singleSamples = 0; }},
       {"single samples", [](RenderSettings& s) { s.singleSamples = 257; }},
       {"samples", [](RenderSettings& s) { s.samples = 0; }},
