@@ -145,6 +145,8 @@ void LivePicture::forget() {
   volumeTexture_.reset();
   volumeImage_.reset();
   key_.clear();
+  seenKey_.clear();
+  seen_.reset();
   drawn_ = false;
   drawnScale_ = 0;
 }

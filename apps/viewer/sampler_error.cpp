@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lychnite/base/error.h"
+
 namespace lychnite::viewer {
 namespace {
 
@@ -34,7 +36,13 @@ void SamplerError::want(const ViewState& state, double aspect) {
     problem_.clear();
     if (!judges(state.settings)) return dipole_.stop();
     if (!renderer_) renderer_ = std::make_unique<Renderer>(options_);
-    sampled_ = renderer_->render(plain.scene, plain.settings);
+    try {
+      sampled_ = renderer_->render(plain.scene, plain.settings);
+    } catch (const Error& error) {
+      if (error.kind() == Error::Kind::kDevice) throw;
+      problem_ = error.what();  // a light inside the object: the picture says so, too
+      return dipole_.stop();
+    }
   }
   if (pending()) dipole_.want(plain.scene, plain.settings);
 }
@@ -47,7 +55,10 @@ void SamplerError::stop() {
 const std::optional<Metrics>& SamplerError::found() {
   if (!pending()) return found_;
   const auto judge = dipole_.newest();
-  if (!judge) return found_;
+  if (!judge) {
+    problem_ = dipole_.problem();
+    return found_;
+  }
   try {
     found_ = compare(*sampled_, *judge).together;
   } catch (const std::exception& error) {

@@ -37,4 +37,8 @@ std::shared_ptr<const Image> BackgroundDipole::newest() const {
   return impl_->refiner.newest().value_or(nullptr);
 }
 
+std::string BackgroundDipole::problem() const {
+  return impl_->refiner.problem();
+}
+
 }  // namespace lychnite

@@ -75,6 +75,18 @@ GltfModel readAs(const Format& format, std::string_view bytes, const std::filesy
   }
 }
 
+/// Does to what moves as was done to the mesh at rest.
+void repairLike(const RepairReport& report, AnimationData& moving) {
+  if (report.flipped)
+    for (glm::uvec3& t : moving.mesh.triangles) std::swap(t.y, t.z);
+  if (report.normals_made) moving.mesh.normals.clear();  // made anew for each pose
+  if (!report.normals_turned) return;
+  for (glm::vec3& n : moving.mesh.normals) n = -n;
+  for (AnimationData::Part& part : moving.parts)
+    for (AnimationData::Target& target : part.targets)
+      for (glm::vec3& n : target.normals) n = -n;
+}
+
 }  // namespace
 
 LoadedMesh loadMesh(const std::filesystem::path& path, const LogSink& log) {
@@ -88,8 +100,7 @@ LoadedMesh loadMesh(const std::filesystem::path& path, const LogSink& log) {
   const double read_seconds = secondsSoFar();
   LoadedMesh loaded = repairMesh(std::move(model.mesh), path.string());
   if (model.animation && model.animation->moves()) {
-    if (loaded.report.flipped)
-      for (glm::uvec3& t : model.animation->mesh.triangles) std::swap(t.y, t.z);
+    repairLike(loaded.report, *model.animation);
     loaded.animation = std::make_shared<const MeshAnimation>(std::move(*model.animation), loaded.mesh);
   }
   loaded.seconds = secondsSoFar();

@@ -123,7 +123,7 @@ bool turnIfInsideOut(Mesh& mesh, const EdgeFacts& edges) {
 }
 
 // The triangles say what is outside; a file whose normals mostly say the opposite has them all turned.
-void alignNormals(Mesh& mesh) {
+bool alignNormals(Mesh& mesh) {
   ptrdiff_t agreement = 0;
   for (const glm::uvec3& t : mesh.triangles) {
     const glm::dvec3 across = areaVector(mesh, t);
@@ -131,6 +131,7 @@ void alignNormals(Mesh& mesh) {
   }
   if (agreement < 0)
     for (glm::vec3& n : mesh.normals) n = -n;
+  return agreement < 0;
 }
 
 RepairReport repairInPlace(Mesh& mesh, const std::string& where) {
@@ -157,7 +158,7 @@ RepairReport repairInPlace(Mesh& mesh, const std::string& where) {
   if (report.normals_made)
     mesh.normals = angleWeightedNormals(mesh.positions, mesh.triangles);
   else
-    alignNormals(mesh);
+    report.normals_turned = alignNormals(mesh);
   return report;
 }
 

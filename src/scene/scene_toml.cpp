@@ -53,6 +53,7 @@ Object readObject(const toml::table& table, const fs::path& path, const LogSink&
       {"name", "model", "animation", "time", "size", "position", "rotation", "quaternion", "material"});
   Object object = loadObject(in.text("model"), path.has_parent_path() ? path.parent_path() : ".", log);
   object.name = in.text("name", "");
+  if (in.has("time") && !in.has("animation")) in.refuse("time", "an animation beside it");
   if (in.has("animation")) {
     const double seconds = in.number("time", 0);
     if (!std::isfinite(seconds) || seconds < 0) in.refuse("time", "seconds, 0 or more");

@@ -334,7 +334,7 @@ void VolumeSolver::Impl::tell() {
     const LightField& field = fields[l];
     const Rgb power = rays->lights()[l].power;
     const Rgb each = power / field.wholePasses;
-    stats.passes = std::max(stats.passes, field.passes);
+    stats.passes = l == 0 ? field.passes : std::min(stats.passes, field.passes);
     entered += field.tally.entered * each;
     left += field.tally.left * each;
     unscattered += field.tally.unscattered * each;
@@ -467,7 +467,7 @@ void VolumeSolver::Impl::converge(VolumeSolver& solver, const RenderSettings& wi
     if (wish.noise > 0 && stats.passes >= look) {
       const double ratio = solver.noise() / wish.noise;
       if (ratio <= 1) return;
-      look = stats.passes + std::clamp(int(stats.passes * (ratio * ratio - 1)), 1, stats.passes);
+      look = stats.passes + int(std::clamp(stats.passes * (ratio * ratio - 1), 1.0, double(stats.passes)));
     }
     solver.refine(progress);
   }

@@ -100,6 +100,8 @@ class BackgroundDipole {
   void want(const Scene& scene, const RenderSettings& settings);
   void stop();
   std::shared_ptr<const Image> newest() const;
+  /// Why there is none for what was wanted last; "" while it is being made.
+  std::string problem() const;
 
  private:
   struct Impl;

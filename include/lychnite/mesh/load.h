@@ -23,6 +23,7 @@ struct RepairReport {
   size_t degenerate_triangles = 0;  ///< dropped: two equal corners or no area
   size_t unused_vertices = 0;       ///< dropped
   bool normals_made = false;        ///< the file had none (or unusable ones)
+  bool normals_turned = false;      ///< they pointed to the triangles' other side
   size_t boundary_edges = 0;        ///< of what is left; above 0 the surface has holes and no inside
   bool flipped = false;             ///< a closed mesh that was inside out was turned
 };

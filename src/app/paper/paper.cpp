@@ -143,6 +143,7 @@ class Maker {
                                              .fraction = before + share * update.fraction,
                                              .detail = fmt::format("{}: {}", part.name, update.detail)});
                   }));
+    context_.makeCurrent();  // a part before may have drawn in one of its own
     part.make(studio_, report);
     report.seconds = studio_.seconds();
     for (const Block& block : report.blocks)

@@ -62,11 +62,15 @@ class AnimationReader {
     return found == file_.document().end() ? kNone : *found;
   }
 
-  std::vector<double> numbers(size_t accessor, size_t components) {
-    std::vector<double> values = file_.numbers(accessor, components);
-    used_ += values.size();
+  void count(size_t numbers) {
+    used_ += numbers;
     if (used_ > kMostNumbers)
       file_.fail("at most " + std::to_string(kMostNumbers) + " numbers of motion", "more");
+  }
+
+  std::vector<double> numbers(size_t accessor, size_t components) {
+    std::vector<double> values = file_.numbers(accessor, components);
+    count(values.size());
     for (const double v : values)
       if (!std::isfinite(v)) file_.fail("finite numbers of motion", std::to_string(v));
     return values;
@@ -101,6 +105,7 @@ class AnimationReader {
       if (node.contains("mesh")) {
         const json& mesh = file_.item("meshes", file_.whole(node, "mesh"));
         out.weights = node.value("weights", mesh.value("weights", std::vector<double>()));
+        count(out.weights.size());
       }
       for (const json& child : node.value("children", json::array())) {
         AnimationData::Node& kin = data_.nodes[nodeNumber(child)];
@@ -142,6 +147,7 @@ class AnimationReader {
     const auto from = [&](const char* name, std::vector<glm::vec3>& to) {
       const auto values = vectors(file_.whole(attributes, name), part.count);
       std::copy(values.begin(), values.end(), to.begin() + ptrdiff_t(part.first));
+      used_ -= 3 * part.count;  // no motion; the file's size bounds it
     };
     from("POSITION", data_.mesh.positions);
     if (withNormals_) from("NORMAL", data_.mesh.normals);

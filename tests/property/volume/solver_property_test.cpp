@@ -155,6 +155,18 @@ TEST(VolumeProperty, WhatIsKeptEqualsWhatIsMadeAfresh) {
       1e-3);
 }
 
+TEST(VolumeProperty, ALightThatMovedCountsAnew) {
+  VolumeSolver solver;
+  Scene scene = sceneOf("figurine", "skin1", 10);
+  scene.lights.push_back(ParallelLight{.azimuth = -40, .elevation = 30});
+  solver.update(scene, kQuick);
+  for (int pass = 1; pass < 3; ++pass) solver.refine();
+  EXPECT_EQ(solver.stats().passes, 3);
+  std::get<ParallelLight>(scene.lights[1]).azimuth = -41;
+  solver.update(scene, kQuick);
+  EXPECT_EQ(solver.stats().passes, 1);  // of the light that has fewest: there is more to do
+}
+
 TEST(VolumeProperty, ScalesWithSizeAndCoefficientsTogether) {
   const Scene scene = sceneOf("figurine", "marble", 10);
   Scene scaled = scene;
