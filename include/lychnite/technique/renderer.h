@@ -33,7 +33,7 @@ struct RenderStats {
   std::string device, driver;
   bool software = false;
   size_t triangles = 0, vertices = 0, coveredPixels = 0;
-  int mapSize = 0;  ///< texels along a side of the light-space maps
+  int mapSize = 0;                    ///< texels along a side of the light-space maps
   size_t mapBytes = 0, gpuBytes = 0;  ///< light-space maps; everything this renderer holds on the device
 };
 
