@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <ctime>
 #include <optional>
 #include <thread>
 
 #include "app/bench_growth.h"
 #include "app/bench_scenes.h"
 #include "app/bench_timer.h"
+#include "app/date.h"
 #include "lychnite/app/image_maker.h"
 #include "lychnite/base/error.h"
 #include "lychnite/gpu/context.h"
@@ -31,15 +31,6 @@ double loadOfMachine() {
   double load = 0;
   getloadavg(&load, 1);
   return load;
-}
-
-std::string today() {
-  const std::time_t now = std::time(nullptr);
-  std::tm day{};
-  gmtime_r(&now, &day);
-  char text[sizeof "2026-12-31"];
-  std::strftime(text, sizeof text, "%Y-%m-%d", &day);
-  return text;
 }
 
 RenderSettings settingsOf(Method method, bool quick) {

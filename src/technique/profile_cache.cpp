@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "lychnite/optics/fresnel.h"
+#include "technique/multiple/spiral.h"
 
 namespace lychnite {
 namespace {
@@ -21,26 +22,6 @@ gpu::Texture tableTexture(const ProfileTable& table) {
                         .filter = gpu::Filter::kLinear});
   texture.upload(std::span<const float>(texels));
   return texture;
-}
-
-/// Where the profile has passed on all but a thousandth part of its light, in the channel that reaches
-/// farthest.
-double reachOf(const Profile& profile) {
-  const Rgb total = profile.P(0);
-  double r = 1e-9;
-  for (; r < 1e9; r *= 1.2) {
-    const Rgb left = profile.P(r);
-    if (left.x <= 1e-3 * total.x && left.y <= 1e-3 * total.y && left.z <= 1e-3 * total.z) break;
-  }
-  return r;
-}
-
-/// Three times the mean core of the channels that scatter: the radius that half of the spiral's samples lie
-/// within.
-double spiralScaleOf(const Profile& profile) {
-  const Rgb core = profile.coreLength();
-  const int channels = (core.x > 0) + (core.y > 0) + (core.z > 0);
-  return channels > 0 ? (core.x + core.y + core.z) * 3 / channels : 1;
 }
 
 }  // namespace
@@ -62,8 +43,8 @@ void ProfileCache::update(const Frame& frame, ProfileKind kind, const ProfileMak
       const auto profile = makeProfile(maker, {kind, m, ProfileOrders::kFromSecond}, progress);
       const ProfileTable table(*profile, 1);
       entry.table.emplace(tableTexture(table));
-      entry.reach = reachOf(*profile);
-      entry.spiralScale = spiralScaleOf(*profile);
+      entry.reach = spiralReach(*profile);
+      entry.spiralScale = spiralScale(*profile);
       entry.scale = float(table.scale());
       entry.total = makeProfile(maker, {kind, m, ProfileOrders::kAll}, progress)->P(0);
     } else {

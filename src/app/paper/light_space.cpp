@@ -27,25 +27,14 @@ double distanceToCircle(double e0, double rc, double cosine, double sine) {
   return e0 * cosine + std::sqrt(std::max(0.0, rc * rc - s * s));
 }
 
-/// Where the profile is dark in every channel, as the renderer takes it.
-double reachOf(const Profile& profile) {
-  const Rgb total = profile.P(0);
-  double r = 1e-6;
-  for (; r < 1e6; r *= 1.2) {
-    const Rgb left = profile.P(r);
-    if (left.x <= 1e-3 * total.x && left.y <= 1e-3 * total.y && left.z <= 1e-3 * total.z) break;
-  }
-  return r;
-}
-
 /// The spiral in mm around a receiver at `p` from the axis of a circle of radius `rc`.
 struct Spiral {
   double scale, reach, rc, e0, e;
   glm::dvec2 inwards{1, 0};
 
   Spiral(const Profile& profile, const glm::dvec2& p, double radius)
-      : scale((profile.coreLength().x + profile.coreLength().y + profile.coreLength().z)),
-        reach(reachOf(profile)),
+      : scale(spiralScale(profile)),
+        reach(spiralReach(profile)),
         rc(radius),
         e0(std::min(glm::length(p), 0.999 * radius)) {
     if (e0 > 1e-6) inwards = -p / glm::length(p);

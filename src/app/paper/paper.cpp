@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ctime>
 #include <fstream>
 #include <iterator>
 #include <optional>
 
+#include "app/date.h"
 #include "app/paper/page.h"
 #include "app/paper/parts.h"
 #include "gpu/shader_source.h"
@@ -48,15 +48,6 @@ std::string programText() {
     text += hashOf(bytes);
   }
   return hashOf(text);
-}
-
-std::string today() {
-  const std::time_t now = std::time(nullptr);
-  std::tm day{};
-  gmtime_r(&now, &day);
-  char text[sizeof "2026-12-31"];
-  std::strftime(text, sizeof text, "%Y-%m-%d", &day);
-  return text;
 }
 
 /// The report of a part as it is on disk; nothing when there is none that can be read.

@@ -33,4 +33,20 @@ std::vector<glm::vec2> azimuthTable() {
   return table;
 }
 
+double spiralReach(const Profile& profile) {
+  const Rgb total = profile.P(0);
+  double r = 1e-9;
+  for (; r < 1e9; r *= 1.2) {
+    const Rgb left = profile.P(r);
+    if (left.x <= 1e-3 * total.x && left.y <= 1e-3 * total.y && left.z <= 1e-3 * total.z) break;
+  }
+  return r;
+}
+
+double spiralScale(const Profile& profile) {
+  const Rgb core = profile.coreLength();
+  const int channels = (core.x > 0) + (core.y > 0) + (core.z > 0);
+  return channels > 0 ? (core.x + core.y + core.z) * 3 / channels : 1;
+}
+
 }  // namespace lychnite

@@ -3,6 +3,8 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
+#include "lychnite/optics/profile.h"
+
 namespace lychnite {
 
 // The golden-angle spiral of the matched sampler in double precision (docs/physics.md, "The matched
@@ -20,5 +22,12 @@ std::vector<glm::vec2> azimuthTable();
 inline constexpr double kLargestEccentricity = 0.9;
 inline constexpr int kAzimuthColumns = 257;
 inline constexpr int kAzimuthRows = 64;
+
+/// Where the profile has passed on all but a thousandth part of its light, in the channel that reaches
+/// farthest; in the profile's unit of length, as below.
+double spiralReach(const Profile& profile);
+/// Three times the mean core of the channels that scatter: the radius that half of the spiral's samples lie
+/// within.
+double spiralScale(const Profile& profile);
 
 }  // namespace lychnite
