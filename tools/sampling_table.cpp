@@ -106,7 +106,10 @@ void print(const std::string& title, const Table& table) {
         fmt::print(" dark |");
       all.add(cell);
     }
-    fmt::print(" {:.1f} | {:.1f} |\n", 100 * all.sum / all.count, 100 * all.gained / all.count);
+    if (all.count > 0)
+      fmt::print(" {:.1f} | {:.1f} |\n", 100 * all.sum / all.count, 100 * all.gained / all.count);
+    else
+      fmt::print(" - | - |\n");
   }
   std::fflush(stdout);
 }
