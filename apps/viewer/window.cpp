@@ -78,7 +78,9 @@ struct WindowEvents {
     add(window, {.kind = InputEvent::Kind::kText, .codePoint = codePoint});
   }
   static void drop(GLFWwindow* window, int count, const char** paths) {
-    add(window, {.kind = InputEvent::Kind::kDrop, .files = std::vector<std::string>(paths, paths + count)});
+    InputEvent event{.kind = InputEvent::Kind::kDrop};
+    event.files.assign(paths, paths + count);
+    add(window, std::move(event));
   }
   static void focus(GLFWwindow* window, int gained) {
     add(window, {.kind = InputEvent::Kind::kFocus, .down = gained == GLFW_TRUE});

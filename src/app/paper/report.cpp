@@ -106,10 +106,11 @@ Report reportFrom(const Json& json) {
 
 std::string csvOf(const Table& table) {
   std::string text;
-  for (size_t i = 0; i < table.columns.size(); ++i) text += (i ? "," : "") + csvCell(table.columns[i].key);
+  for (size_t i = 0; i < table.columns.size(); ++i)
+    text.append(i ? "," : "").append(csvCell(table.columns[i].key));
   text += "\r\n";
   for (const std::vector<Cell>& row : table.rows) {
-    for (size_t i = 0; i < row.size(); ++i) text += (i ? "," : "") + csvCell(row[i]);
+    for (size_t i = 0; i < row.size(); ++i) text.append(i ? "," : "").append(csvCell(row[i]));
     text += "\r\n";
   }
   return text;
