@@ -15,8 +15,8 @@ namespace lychnite::e2e {
 namespace {
 
 /// Resident memory may grow by this much over two thirds of the run; caches, history and the driver's pools
-/// are full before. A short run's first third may not yet have come to `volume`, which holds a solver on either
-/// side of the wipe, 80 to 150 MB each.
+/// are full before. A short run's first third may not yet have come to `volume`, which holds a solver on
+/// either side of the wipe, 80 to 150 MB each.
 constexpr double kAllowedGrowth = 300e6;
 
 int soakFrames() {
