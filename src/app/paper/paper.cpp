@@ -127,7 +127,6 @@ class Maker {
     const fs::path folder = settings_.output / part.name;
     makeFolder(folder);
     const auto older = readReport(jsonOf(part));
-    fs::remove(jsonOf(part));
     Report report{.part = part.name, .title = part.title, .stamp = stampOf(part)};
     studio_.begin(folder, part.steps(studio_), Progress([=, this, &part](const Progress::Update& update) {
                     return progress_.update({.what = update.what,

@@ -124,7 +124,7 @@ std::string Studio::keyOf(const Scene& scene, const RenderSettings& settings) {
   std::string text = program_ + sceneToToml(scene) + textOf(settings);
   if (isRealTime(settings.method)) text += device_;
   for (const Object& object : scene.objects) {
-    std::string& key = meshKeys_[object.mesh.get()];
+    std::string& key = meshKeys_[object.mesh];
     if (key.empty())
       key = hashOf({reinterpret_cast<const char*>(object.mesh->positions.data()),
                     object.mesh->positions.size() * sizeof(glm::vec3)});

@@ -73,7 +73,7 @@ class Studio {
   Progress progress_;
   int steps_ = 1, done_ = 0;
   double begun_ = 0;
-  std::map<const Mesh*, std::string> meshKeys_;
+  std::map<std::shared_ptr<const Mesh>, std::string> meshKeys_;  ///< kept, so that no address comes again
   std::map<std::string, Object> objects_;
   std::optional<Renderer> renderer_;
 };
