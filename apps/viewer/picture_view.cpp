@@ -7,6 +7,7 @@
 
 #include "lychnite/base/error.h"
 #include "lychnite/gpu/context.h"
+#include "lychnite/scene/scene_file.h"
 #include "technique/read_back.h"
 #include "technique/renderer_textures.h"
 
@@ -142,6 +143,10 @@ std::string LivePicture::key() const {
 
 void LivePicture::forget() {
   renderer_.reset();
+  restart();
+}
+
+void LivePicture::restart() {
   volumeTexture_.reset();
   volumeImage_.reset();
   key_.clear();
@@ -170,6 +175,15 @@ PictureView::PictureView(const RendererOptions& options, const BackgroundWalk::O
       samplerError_(options, walk.threads, walk.yields),
       idleMs_(kMillisecondsIdle) {
   live_.prepare();
+}
+
+void PictureView::warmUp(const gpu::Framebuffer& target, const Area& area) {
+  const glm::ivec2 pixels(area.size());
+  if (pixels.x <= 0 || pixels.y <= 0) return;
+  const ViewState state = defaultView(loadObject("stone"));
+  live_.update(state, pixels, pace_.scale(), false);
+  show(target, area, state);
+  live_.restart();
 }
 
 bool PictureView::compares(Source source) const {

@@ -31,7 +31,9 @@ class LivePicture {
   void prepare() {
     if (!renderer_) renderer_ = std::make_unique<Renderer>(options_);
   }
+  /// Makes the next picture anew, with a new renderer or the same.
   void forget();
+  void restart();
   bool ready() const { return drawn_; }
   bool whole() const { return ready() && drawnScale_ >= 1; }
   /// What is asked for is not a stand-in's picture any more.
@@ -92,6 +94,8 @@ class Pace {
 class PictureView {
  public:
   PictureView(const RendererOptions& options, const BackgroundWalk::Options& walk);
+  /// Draws a small model and forgets it: drivers make their programs when they are first used.
+  void warmUp(const gpu::Framebuffer& target, const Area& area);
 
   struct Request {
     const ViewState* state = nullptr;

@@ -89,6 +89,7 @@ class Viewer {
     double until = 0;
   };
 
+  void warmUp();
   void start();
   void makePlayer();
   bool quick() const;
@@ -146,6 +147,8 @@ Viewer::Viewer(const ViewOptions& options)
       swatches_({.useCurrentContext = true}) {
   makePlayer();
   stopwatch_.tell(options_.log, LogLevel::kDebug, "shaders");
+  if (session_.loading()) warmUp();
+  stopwatch_.tell(options_.log, LogLevel::kDebug, "empty window");
   start();
   stopwatch_.tell(options_.log, LogLevel::kDebug, "model");
 }
@@ -165,6 +168,14 @@ Viewer::~Viewer() {
 Preferences Viewer::loadPreferences() {
   session_.open(options_.model);
   return readPreferences(preferencesPath_, session_.log());
+}
+
+/// While the model is made: a window without one, and what drivers only do at the first picture.
+void Viewer::warmUp() {
+  frame({});
+  const glm::ivec2 pixels = window_.pixels();
+  const Layout layout = layoutOf(pixels, ui_.scale(), preferences_.panelWidth);
+  view_.warmUp(gpu::Framebuffer::ofWindow(pixels.x, pixels.y), layout.picture);
 }
 
 void Viewer::start() {
