@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct Animation {
   bool lights = false, objects = false;
   bool clips = false;  ///< the model's own
   double degreesPerSecond = 45;
+  std::string problem;  ///< why the pose asked for last is not shown, "" when it is
   bool running() const { return lights || objects || clips; }
 };
 
@@ -36,7 +38,10 @@ struct Controls {
 /// The methods that a window can show, in their order.
 const std::vector<Method>& liveMethods();
 /// Plays the subject's clip (the first one from rest) or stops where it is.
-void togglePlay(Controls& controls, Scene& scene);
+void togglePlay(Controls& controls, Session& session);
+/// Does `work`, which poses objects. Where a file's motion has no such pose the last one stays, playing
+/// stops, and it is said once.
+void pose(Controls& controls, Session& session, const std::function<void()>& work);
 
 /// What panels work on.
 struct PanelContext {

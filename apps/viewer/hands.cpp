@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "lychnite/app/scene_moves.h"
+#include "lychnite/base/error.h"
 
 namespace lychnite::viewer {
 namespace {
@@ -26,12 +27,27 @@ void nextMethod(RenderSettings& settings) {
 
 }  // namespace
 
-void togglePlay(Controls& controls, Scene& scene) {
+void pose(Controls& controls, Session& session, const std::function<void()>& work) {
+  std::string& problem = controls.animation.problem;
+  try {
+    work();
+    problem.clear();
+  } catch (const Error& error) {
+    if (error.kind() == Error::Kind::kDevice) throw;
+    controls.animation.clips = false;
+    if (problem.empty()) session.say(error.what(), true);
+    problem = error.what();
+  }
+}
+
+void togglePlay(Controls& controls, Session& session) {
+  Scene& scene = session.state().scene;
   Object& subject = scene.objects[subjectIndex(scene)];
   const MeshAnimation::Clip* clip = clipOf(subject);
   if (!clip) return;
   controls.animation.clips = !controls.animation.clips;
-  if (controls.animation.clips && subject.clip.empty()) showClip(scene, clip->name, 0);
+  if (controls.animation.clips && subject.clip.empty())
+    pose(controls, session, [&] { showClip(scene, clip->name, 0); });
 }
 
 Hands::Hold Hands::holdOf(int button, const PanelContext& context, const Area& picture) const {
@@ -137,7 +153,7 @@ bool Hands::plainKey(int key, PanelContext& context) {
   if (key == GLFW_KEY_RIGHT_BRACKET) setSubjectSize(scene, size * 2);
   if (key == GLFW_KEY_SPACE) context.controls.animation.lights = !context.controls.animation.lights;
   if (key == GLFW_KEY_M) nextMethod(state.settings);
-  if (key == GLFW_KEY_P) togglePlay(context.controls, scene);
+  if (key == GLFW_KEY_P) togglePlay(context.controls, context.session);
   if (key == GLFW_KEY_G) state.ruler = !state.ruler;
   if (key == GLFW_KEY_I) state.inspect.samples = !state.inspect.samples;
   if (key == GLFW_KEY_C) toggle(state.compare, CompareView::Mode::kWipe);

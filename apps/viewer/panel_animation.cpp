@@ -19,17 +19,17 @@ void drawAnimationSection(PanelContext& context) {
                 "An animation of the model's file. The true size stays that of the model at rest. Poses are "
                 "computed for each frame; nothing about the light is computed before.",
                 chosen, names)) {
-    showClip(scene, chosen == 0 ? "" : names[size_t(chosen)], 0);
+    pose(controls, context.session, [&] { showClip(scene, chosen == 0 ? "" : names[size_t(chosen)], 0); });
     controls.animation.clips = controls.animation.clips && chosen > 0;
   }
   if (ui.button(controls.animation.clips ? "Pause" : "Play", "P. From its end it begins again."))
-    togglePlay(controls, scene);
+    togglePlay(controls, context.session);
   if (subject.clip.empty()) return;
   double time = subject.time;
   if (ui.slider("Time, s", "The moment that is shown; scene files keep it.", time, 0,
                 clipOf(subject)->seconds, "%.2f")) {
     controls.animation.clips = false;
-    setPose(subject, subject.clip, time);
+    pose(controls, context.session, [&] { setPose(subject, subject.clip, time); });
   }
 }
 

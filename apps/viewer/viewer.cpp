@@ -301,7 +301,7 @@ void Viewer::animate() {
   if (animation.objects) turnObjects(session_.state().scene, degrees);
   Scene& scene = session_.state().scene;
   animation.clips = animation.clips && scene.objects[subjectIndex(scene)].animation;
-  if (animation.clips) playClips(scene, frameSeconds_);
+  if (animation.clips) pose(controls_, session_, [&] { playClips(scene, frameSeconds_); });
 }
 
 void Viewer::takeMessages() {

@@ -199,7 +199,9 @@ void Session::takeObject(Loading& done) {
       each.mesh = object.mesh;
       each.animation = object.animation;
       const bool still = object.animation && clipOf(object) && clipOf(each)->name == each.clip;
-      setPose(each, still ? each.clip : "", each.time);
+      const auto [clip, time] = std::pair(each.clip, each.time);
+      setPose(each, "", 0);
+      if (still) setPose(each, clip, time);
     }
   } else if (empty()) {
     state_ = defaultView(object);

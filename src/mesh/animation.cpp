@@ -1,8 +1,11 @@
 #include "lychnite/mesh/animation.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <mutex>
 
 #include "lychnite/base/error.h"
@@ -12,8 +15,9 @@
 namespace lychnite {
 namespace {
 
-constexpr int kLooks = 24;        // moments of a clip at which its reach is looked for,
-constexpr double kMargin = 1.05;  // and how much farther it may go between them
+constexpr int kLooks = 24;         // moments of a clip at which its reach is looked for,
+constexpr double kMargin = 1.05;   // and how much farther it may go between them
+constexpr double kFarthest = 1e6;  // extents of the mesh at rest; what lies farther is an error of the file
 
 double lengthOf(const AnimationData::Clip& clip) {
   double seconds = 0;
@@ -21,10 +25,24 @@ double lengthOf(const AnimationData::Clip& clip) {
   return seconds;
 }
 
+/// Infinite when one of them is not a number.
 double farthest(const std::vector<glm::vec3>& positions, const glm::dvec3& centre) {
   double square = 0;
-  for (const glm::dvec3 p : positions) square = std::max(square, glm::dot(p - centre, p - centre));
+  for (const glm::dvec3 p : positions) {
+    const double each = glm::dot(p - centre, p - centre);
+    square = std::isnan(each) ? std::numeric_limits<double>::infinity() : std::max(square, each);
+  }
   return std::sqrt(square);
+}
+
+/// `reach` in extents of the mesh at rest.
+void refuseFar(double reach, const std::string& clip, double seconds) {
+  if (reach <= kFarthest) return;
+  throw Error({.where = fmt::format("{} at {:.3g} s", clip, seconds),
+               .expected = fmt::format("vertices within {:g} times the model's size", kFarthest),
+               .found = std::isfinite(reach) ? fmt::format("one at {:.2g} times", reach)
+                                             : "NaN, infinity or a number past the range of floats",
+               .todo = "export the animation again"});
 }
 
 }  // namespace
@@ -36,16 +54,17 @@ struct MeshAnimation::Impl {
   std::vector<double> reach;     ///< of each clip, 0 before it was looked for
   std::mutex mutex;
 
-  double reachAbout(const glm::dvec3& centre, size_t clip);
+  double reachAbout(const Bounds& rest, size_t clip);
 };
 
-double MeshAnimation::Impl::reachAbout(const glm::dvec3& centre, size_t clip) {
+double MeshAnimation::Impl::reachAbout(const Bounds& rest, size_t clip) {
   const std::lock_guard lock(mutex);
   if (reach[clip] > 0) return reach[clip];
   for (int i = 0; i < kLooks; ++i) {
     const double seconds = clips[clip].seconds * i / (kLooks - 1);
-    reach[clip] =
-        std::max(reach[clip], kMargin * farthest(posedVertices(data, clip, seconds).positions, centre));
+    const double each = farthest(posedVertices(data, clip, seconds).positions, rest.centre());
+    // A moment that is an error hides none of the others.
+    if (each <= kFarthest * glm::length(rest.extent())) reach[clip] = std::max(reach[clip], kMargin * each);
   }
   return reach[clip];
 }
@@ -86,8 +105,9 @@ std::shared_ptr<const Mesh> MeshAnimation::pose(size_t clip, double seconds) con
     mesh->normals = std::move(posed.normals);
   }
   Extent extent{extentOf(*rest_).bounds, 0};
-  const glm::dvec3 centre = extent.bounds.centre();
-  extent.radius = std::max(all.reachAbout(centre, clip), farthest(mesh->positions, centre));
+  const double reach = farthest(mesh->positions, extent.bounds.centre());
+  refuseFar(reach / glm::length(extent.bounds.extent()), all.clips[clip].name, seconds);
+  extent.radius = std::max(all.reachAbout(extent.bounds, clip), reach);
   mesh->extent = extent;
   return mesh;
 }

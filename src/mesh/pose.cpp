@@ -45,7 +45,7 @@ glm::dvec3 turned(const glm::dmat3& m, const glm::dvec3& normal) {
   const glm::dvec3 result = side * (normal.x * glm::cross(m[1], m[2]) + normal.y * glm::cross(m[2], m[0]) +
                                     normal.z * glm::cross(m[0], m[1]));
   const double length = glm::length(result);
-  return length > 0 ? result / length : glm::dvec3(0, 1, 0);
+  return length > 0 && std::isfinite(length) ? result / length : glm::dvec3(0, 1, 0);
 }
 
 class Poser {

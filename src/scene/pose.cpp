@@ -26,9 +26,10 @@ void setPose(Object& object, const std::string& clip, double seconds) {
                 Error::Kind::kUsage);
   }
   const size_t number = size_t(found - names.begin());
-  object.time = std::clamp(seconds, 0.0, object.animation->clips()[number].seconds);
-  object.mesh = object.animation->pose(number, object.time);
+  const double time = std::clamp(seconds, 0.0, object.animation->clips()[number].seconds);
+  object.mesh = object.animation->pose(number, time);
   object.clip = clip;
+  object.time = time;
 }
 
 }  // namespace lychnite

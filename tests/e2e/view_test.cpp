@@ -233,6 +233,23 @@ TEST_F(View, AnimationsPlayAndAreKeptByTheScene) {
   EXPECT_EQ(scratch_.read("box.png"), scratch_.read("rendered.png"));
 }
 
+TEST_F(View, APoseThatCannotBeIsToldOnceAndTheLastOneStays) {
+  sample::MovingBox box;
+  box.animate(2, "scale", sample::MovingBox::kWild, "LINEAR", "burst");
+  scratch_.write("box.glb", box.glb());
+  const Result result =
+      play("box.glb",
+           "key g\nclick @section-material\nclick @section-light\nwait rest\nscreenshot rest.png\n"
+           "key p\nwait 10\nkey p\nwait 10\ndrag @time:0.1,0.5 @time:0.9,0.5\nwait rest\n"
+           "screenshot after.png\nkey ctrl+s\n");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const size_t first = result.err.find("burst at");
+  ASSERT_NE(first, std::string::npos) << result.err;
+  EXPECT_EQ(result.err.find("burst at", first + 1), std::string::npos) << result.err;
+  EXPECT_LT(difference(shot("rest.png"), shot("after.png"), {0.1, 0.05, 0.9, 0.5}), 0.3);
+  EXPECT_EQ(readScene(scratch_ / "box.toml").objects[0].time, 0);
+}
+
 TEST_F(View, LightsCameraAndKeysMoveThePicture) {
   const Result result =
       play("stone",

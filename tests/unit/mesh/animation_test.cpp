@@ -143,6 +143,32 @@ TEST_F(Animation, RefusesMotionThatDoesNotFit) {
             std::string::npos);
 }
 
+TEST_F(Animation, RefusesAMomentWithoutFinitePlaces) {
+  MovingBox box;
+  box.animate(2, "scale", MovingBox::kWild, "STEP", "burst");
+  const LoadedMesh loaded = load(box);
+  const auto mesh = loaded.animation->pose(0, 1.9);  // the other moments are as they would be without it
+  expectNear(mesh->positions[kUpper], {1, 2, 3});
+  EXPECT_LT(mesh->extent->radius, 2);
+  for (const glm::vec3& n : mesh->normals) EXPECT_NEAR(glm::length(n), 1, 1e-5);
+  try {
+    loaded.animation->pose(0, 2);
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("burst at 2 s"), std::string::npos) << text;
+    EXPECT_NE(text.find("past the range of floats"), std::string::npos) << text;
+  }
+}
+
+TEST_F(Animation, RefusesAMomentFarPastTheModelsSize) {
+  MovingBox box;
+  box.animate(2, "scale", MovingBox::kWild, "LINEAR", "burst");
+  const LoadedMesh loaded = load(box);
+  EXPECT_NO_THROW(loaded.animation->pose(0, 0));
+  EXPECT_THROW(loaded.animation->pose(0, 1), Error);  // finite still
+}
+
 TEST(SampledRotation, TakesTheShortWay) {
   AnimationData::Sampler sampler{.times = {0, 1}, .components = 4, .values = {0, 0, 0, 1, 0, 0, 0.6, -0.8}};
   // The second key is the same turn as (0, 0, -0.6, 0.8): half of it has the angle's half.

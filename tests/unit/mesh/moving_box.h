@@ -22,11 +22,12 @@ class MovingBox {
     kTimes,
     kTurns,
     kSpline,
-    kFactors
+    kFactors,
+    kWild
   };
 
   MovingBox() {
-    std::string joints, weights, bind, lift, times, turns, spline, factors;
+    std::string joints, weights, bind, lift, times, turns, spline, factors, wild;
     for (const auto& corner : kCorners) {
       joints += std::string{char(corner.z > 0 ? 1 : 0), 0, 0, 0};
       for (const float w : {1.0f, 0.0f, 0.0f, 0.0f}) put(weights, w);
@@ -40,6 +41,8 @@ class MovingBox {
     // z from 0 to 4, leaving with a speed of 1 and arriving with none.
     for (const float z : {0.0f, 0.0f, 1.0f, 0.0f, 4.0f, 0.0f}) put(spline, glm::vec3(0, 0, z));
     for (const float w : {0.0f, 1.0f}) put(factors, w);
+    // Scales: of its joint's own size, and past the range of floats for what is farther than 1 from it.
+    for (const float s : {1.0f, 3e38f}) put(wild, glm::vec3(s));
     std::string points, indices;
     for (const auto& p : kCorners) put(points, p);
     for (const auto& t : triangles())
@@ -54,6 +57,7 @@ class MovingBox {
     add(turns, 5126, 2, "VEC4");
     add(spline, 5126, 6, "VEC3");
     add(factors, 5126, 2, "SCALAR");
+    add(wild, 5126, 2, "VEC3");
   }
 
   /// With one animation a channel: node, path, output, interpolation.
