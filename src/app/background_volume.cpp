@@ -24,21 +24,21 @@ struct BackgroundVolume::Impl {
   VolumeRefiner refiner;  // last: its thread uses the members above
 };
 
-/// A solve is never interrupted, so that what it leaves fits one scene and can be gone on from.
+/// What is interrupted leaves a solver that other work goes on from: shapes and whole passes are kept.
 void BackgroundVolume::Impl::refine(const RefinerJob& job, const VolumeRefiner::Ticket& ticket) {
   const RenderSettings& s = job.settings;
   if (std::string obstacle = solver.obstacle(job.scene); !obstacle.empty()) {
     ticket.publish({.image = nullptr, .passes = 0, .obstacle = std::move(obstacle)});
     return;
   }
-  solver.update(job.scene, {.cells = s.cells, .collisions = s.collisions, .seed = s.seed});
+  const Progress progress([&](const Progress::Update&) { return ticket.valid(); });
+  solver.update(job.scene, {.cells = s.cells, .collisions = s.collisions, .seed = s.seed}, progress);
   while (ticket.valid()) {
-    const Progress progress([&](const Progress::Update&) { return ticket.valid(); });
     auto image = std::make_shared<const Image>(solver.picture(s, progress));
     const int passes = solver.stats().passes;
     if (!ticket.publish({.image = std::move(image), .passes = passes, .obstacle = ""})) return;
     if (passes >= most || passes == 0) return;  // 0: there is no light
-    solver.refine();
+    solver.refine(progress);
   }
 }
 

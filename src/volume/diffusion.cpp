@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "lychnite/optics/fresnel.h"
+#include "volume/interruptible.h"
 
 namespace lychnite::volume {
 
@@ -139,6 +140,7 @@ DiffusionSystem::Report DiffusionSystem::solve(const std::vector<Lanes>& Q, std:
     return worst;
   };
   for (; report.iterations < kMostIterations && relative() > tolerance; ++report.iterations) {
+    Interruptible::check();
     multiply(p, Ap, parts);
     const Lanes alpha = ratio(rz, total(parts));
     inBlocks(n, [&](size_t b, size_t first, size_t last) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "volume/interruptible.h"
+
 namespace lychnite::volume {
 
 namespace {
@@ -15,13 +17,11 @@ constexpr float kLeastLength = 1e-7f;
 }  // namespace
 
 void Grid::Builder::build() {
-  cutSegments();
-  joinInVoxels();
-  measureParts();
-  findOpenings();
-  mergeSmall();
-  number();
-  link();
+  for (const auto step : {&Builder::cutSegments, &Builder::joinInVoxels, &Builder::measureParts,
+                          &Builder::findOpenings, &Builder::mergeSmall, &Builder::number, &Builder::link}) {
+    Interruptible::check();
+    (this->*step)();
+  }
 }
 
 int Grid::Builder::layer(float at) const {

@@ -8,6 +8,7 @@
 #include "reference/ray_scene.h"
 #include "reference/transport.h"
 #include "volume/body.h"
+#include "volume/interruptible.h"
 
 namespace lychnite::volume {
 
@@ -63,7 +64,10 @@ class Tracer {
     Kind kind;
     glm::vec3 flux;
   };
-  Tracer(const World& world, std::vector<Record>& records) : world_(world), records_(records) {}
+  /// Throws Interrupted, see Interruptible.
+  Tracer(const World& world, std::vector<Record>& records) : world_(world), records_(records) {
+    Interruptible::check();
+  }
 
   /// Light of `flux` that travels along `direction` and meets the front of a surface. `u` are the numbers in
   /// [0, 1) of its first flight and first scattering, `order` the collisions that it has behind it,

@@ -9,6 +9,8 @@
 #include <glm/vec2.hpp>
 #include <numeric>
 
+#include "volume/interruptible.h"
+
 namespace lychnite::volume {
 
 namespace {
@@ -55,8 +57,11 @@ int directionOf(const glm::vec3& n) {
 }  // namespace
 
 Surface::Surface(const LocalMesh& mesh, const Grid& grid) : grid_(grid) {
+  Interruptible::check();
   cutTriangles(mesh);
+  Interruptible::check();
   findOwners();
+  Interruptible::check();
   makeNodes();
   orderByCell();
 }

@@ -13,6 +13,7 @@
 #include "volume/emission.h"
 #include "volume/exchange.h"
 #include "volume/gather.h"
+#include "volume/interruptible.h"
 #include "volume/picture.h"
 #include "volume/radiosity.h"
 
@@ -97,8 +98,11 @@ struct VolumeSolver::Impl {
   double undefinedOf(const std::shared_ptr<const Mesh>& mesh);
   std::shared_ptr<const Shape> shapeOf(const std::shared_ptr<const Mesh>& mesh);
   bool makeBodies(const Scene& scene, const VolumeSettings& next);
+  bool makeOrForgetBodies(const Scene& scene, const VolumeSettings& next, const Progress& progress);
   int nextOneOf(const LightField& field) const;
   double wholePasses() const;
+  template <class Work>
+  void orForget(LightField& field, Work work);
   void trace(LightField& field);
   void solveBody(LightField& field, size_t body, float each);
   void solve(LightField& field);
@@ -193,6 +197,17 @@ void VolumeSolver::Impl::trace(LightField& field) {
   stats.flights += traced.tally.flights;
   stats.rays += traced.tally.rays;
   stats.sourceMs += since(start);
+}
+
+/// An interruption leaves nothing half done: the light is to be made anew.
+template <class Work>
+void VolumeSolver::Impl::orForget(LightField& field, Work work) {
+  try {
+    work();
+  } catch (...) {
+    field = {};
+    throw;
+  }
 }
 
 /// Each half for itself; both together after the first pass, which is not judged by its halves.
@@ -355,6 +370,18 @@ void VolumeSolver::Impl::tell() {
   stats.lost = lost / entered;
 }
 
+/// makeBodies(), after whose interruption nothing half made is gone on from.
+bool VolumeSolver::Impl::makeOrForgetBodies(const Scene& scene, const VolumeSettings& next,
+                                            const Progress& progress) {
+  const Interruptible inside(progress, {"volume: geometry", 0, ""});
+  try {
+    return makeBodies(scene, next);
+  } catch (...) {
+    rays.reset();
+    throw;
+  }
+}
+
 VolumeSolver::VolumeSolver() : impl_(std::make_unique<Impl>()) {}
 VolumeSolver::~VolumeSolver() = default;
 VolumeSolver::VolumeSolver(VolumeSolver&&) noexcept = default;
@@ -383,20 +410,21 @@ void VolumeSolver::update(const Scene& scene, const VolumeSettings& settings, co
   Impl& all = *impl_;
   all.stats = {};
   const auto start = std::chrono::steady_clock::now();
-  progress.check({"volume: geometry", 0, ""});
-  const bool stale = all.makeBodies(scene, settings);
+  const bool stale = all.makeOrForgetBodies(scene, settings, progress);
   all.stats.geometryMs = since(start);
   const auto& lights = all.rays->lights();
   all.fields.resize(lights.size());
+  if (stale)
+    for (LightField& field : all.fields) field.passes = 0;
   for (size_t l = 0; l < lights.size(); ++l) {
     LightField& field = all.fields[l];
-    progress.check({"volume: light", double(l) / double(lights.size()), ""});
-    if (!stale && field.passes > 0 && sameRays(field.light, lights[l])) continue;
+    const Interruptible inside(progress, {"volume: light", double(l) / double(lights.size()), ""});
+    if (field.passes > 0 && sameRays(field.light, lights[l])) continue;
     field.light = lights[l];
     field.passes = 0;
     field.wholePasses = 0;
     all.trace(field);
-    all.solve(field);
+    all.orForget(field, [&] { all.solve(field); });
   }
   all.tell();
 }
@@ -405,9 +433,9 @@ void VolumeSolver::refine(const Progress& progress) {
   impl_->stats.sourceMs = impl_->stats.solveMs = impl_->stats.exchangeMs = 0;
   impl_->stats.iterations = 0;
   for (LightField& field : impl_->fields) {
-    progress.check({"volume: light", 0, ""});
+    const Interruptible inside(progress, {"volume: light", 0, ""});
     impl_->trace(field);
-    impl_->solve(field);
+    impl_->orForget(field, [&] { impl_->solve(field); });
   }
   impl_->tell();
 }
