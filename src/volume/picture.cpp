@@ -10,6 +10,7 @@
 #include "reference/picture.h"
 #include "reference/single_light.h"
 #include "volume/gather.h"
+#include "volume/interruptible.h"
 
 namespace lychnite::volume {
 
@@ -105,6 +106,7 @@ std::vector<PixelLight> lightPixels(const RayScene& rays, const World& world, co
   first.push_back(all.size());
   constexpr size_t kBlock = 1024;
   tbb::parallel_for(size_t(0), (first.size() - 1 + kBlock - 1) / kBlock, [&](size_t b) {
+    Interruptible::check();
     Looker looker(rays, world, light, receivers);
     for (size_t i = b * kBlock; i < std::min(first.size() - 1, (b + 1) * kBlock); ++i)
       result[all[first[i]].pixel] = looker.look(all.data() + first[i], all.data() + first[i + 1]);
@@ -116,6 +118,7 @@ std::vector<PixelLight> lightPixels(const RayScene& rays, const World& world, co
 
 Image volumePicture(const RayScene& rays, const World& world, const NodeLight& light,
                     const RenderSettings& settings, const Progress& progress) {
+  const Interruptible inside(progress, {"volume: picture", 0, ""});
   const CameraReceivers receivers = findReceivers(rays, settings.width, settings.height);
   const size_t pixels = receivers.covered.size();
   PictureParts parts;
