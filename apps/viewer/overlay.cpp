@@ -79,13 +79,26 @@ void drawRuler(PanelContext& context, ImDrawList& draw, const Area& area) {
   }
 }
 
+/// What is other in the variant: "adaptive, skin1, 25 mm".
+std::string differences(const Variant& variant) {
+  std::vector<std::string> parts;
+  if (variant.method) parts.push_back(methodName(*variant.method));
+  if (variant.samples) parts.push_back(fmt::format("{} samples", *variant.samples));
+  if (variant.profile) parts.push_back(profileName(*variant.profile));
+  if (variant.material) parts.push_back(variant.material->name);
+  if (variant.size) parts.push_back(formatLength(*variant.size));
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
 void drawWipe(PanelContext& context, ImDrawList& draw, const Area& area) {
   static const char* const kNames[] = {"This scene", "Variant", "Truth (walk)", "Opened picture"};
   const CompareView& compare = context.session.state().compare;
   const float s = float(context.ui.scale());
   const double x = area.low.x + compare.wipe * area.size().x;
   const auto name = [&](CompareView::Source source) {
-    const std::string how = context.view.labelOf(source);
+    std::string how = context.view.labelOf(source);
+    if (how.empty() && source == CompareView::Source::kVariant)
+      how = differences(context.session.state().variant);
     return kNames[int(source)] + (how.empty() ? "" : ": " + how);
   };
   const std::string left = name(compare.left), right = name(compare.right);
@@ -144,6 +157,13 @@ void drawMessages(ImDrawList& draw, const Area& area, double s, const std::vecto
   }
 }
 
+/// How to find out the rest.
+void drawHint(ImDrawList& draw, const Area& area, double s) {
+  const std::string hint = "H: keys";
+  const double width = double(ImGui::CalcTextSize(hint.c_str()).x);
+  text(draw, {area.high.x - width - 12 * s, area.low.y + 10 * s}, kFaint, hint);
+}
+
 void drawKeys(ImDrawList& draw, const Area& area, double s) {
   static const char* const kKeys[][2] = {{"Drag", "turn the camera"},
                                          {"Shift+drag, right drag", "turn the chosen light"},
@@ -166,7 +186,7 @@ void drawKeys(ImDrawList& draw, const Area& area, double s) {
   const glm::dvec2 at = area.low + glm::dvec2(16 * s, 40 * s);
   draw.AddRectFilled(toIm(at - glm::dvec2(10 * s)),
                      toIm(at + glm::dvec2(360 * s, line * double(std::size(kKeys)) + 10 * s)),
-                     IM_COL32(28, 28, 30, 235), float(4 * s));
+                     IM_COL32(28, 28, 30, 250), float(4 * s));
   for (size_t i = 0; i < std::size(kKeys); ++i) {
     text(draw, at + glm::dvec2(0, line * double(i)), kInk, kKeys[i][0]);
     text(draw, at + glm::dvec2(180 * s, line * double(i)), kFaint, kKeys[i][1]);
@@ -188,7 +208,9 @@ void drawOverlay(PanelContext& context, const Area& area, const std::vector<Sess
   context.ui.mark("picture", area);
   if (!context.session.empty() && context.session.state().inspect.layer == Inspect::Layer::kPicture) {
     const ViewState& state = context.session.state();
-    if (state.ruler && state.compare.mode != CompareView::Mode::kDifference) drawRuler(context, draw, area);
+    if (state.ruler && state.compare.mode != CompareView::Mode::kDifference && !state.inspect.samples)
+      drawRuler(context, draw, area);
+    if (state.ruler && state.compare.mode == CompareView::Mode::kOff) drawHint(draw, area, s);
     if (state.compare.mode != CompareView::Mode::kOff)
       drawWipe(context, draw, area);
     else

@@ -13,6 +13,14 @@ namespace {
 
 constexpr double kLargestSigma = 500;  // 1/mm, of the sliders; more can be typed into a scene file
 
+/// Share of the font's size at which every name of the library fits below a swatch.
+float nameShare(float side) {
+  float widest = 1;
+  for (const NamedCoefficients& material : materialLibrary())
+    widest = std::max(widest, ImGui::CalcTextSize(material.name.c_str()).x);
+  return std::min(0.86f, side / widest);
+}
+
 /// A swatch with its name below; true when it was chosen.
 bool swatchButton(PanelContext& context, size_t index, bool chosen, float side) {
   const NamedCoefficients& material = materialLibrary()[index];
@@ -32,9 +40,9 @@ bool swatchButton(PanelContext& context, size_t index, bool chosen, float side) 
   if (chosen || hovered)
     draw.AddRect(at, end, ImGui::GetColorU32(chosen ? ImGuiCol_CheckMark : ImGuiCol_TextDisabled), 4, 0,
                  float(1.5 * context.ui.scale()));
-  const ImVec2 text = ImGui::CalcTextSize(material.name.c_str());
-  const float size = std::min(1.0f, (side - 2) / text.x) * ImGui::GetFontSize() * 0.86f;
-  draw.AddText(ImGui::GetFont(), size, {at.x + 2, end.y + 1},
+  const float size = nameShare(side) * ImGui::GetFontSize();
+  const float width = ImGui::CalcTextSize(material.name.c_str()).x * nameShare(side);
+  draw.AddText(ImGui::GetFont(), size, {std::round(at.x + 0.5f * (side - width)), end.y + 1},
                ImGui::GetColorU32(chosen ? ImGuiCol_Text : ImGuiCol_TextDisabled), material.name.c_str());
   ImGui::Dummy({side, ImGui::GetFontSize()});
   ImGui::EndGroup();

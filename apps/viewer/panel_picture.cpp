@@ -220,9 +220,12 @@ void drawCompareSection(PanelContext& context) {
           "Right", "Truth: Monte Carlo light transport, refined on the processor while the picture rests.",
           right, sourceNames()))
     compare.right = CompareView::Source(right);
-  if (compare.mode == CompareView::Mode::kDifference)
-    context.ui.slider("Full scale", "The relative error that the brightest colour stands for.", compare.full,
-                      0.01, 4, "%.2f", true);
+  if (compare.mode == CompareView::Mode::kDifference) {
+    double percent = 100 * compare.full;
+    if (context.ui.slider("Full scale, %", "The relative error that the brightest colour stands for.",
+                          percent, 1, 400, "%.0f", true))
+      compare.full = percent / 100;
+  }
   drawNumbers(context);
   if (compare.left == CompareView::Source::kVariant || compare.right == CompareView::Source::kVariant)
     drawVariant(context);
@@ -253,7 +256,9 @@ void drawInspectSection(PanelContext& context) {
   const RenderStats* stats = context.view.stats();
   if (!stats) return;
   for (const RenderStats::Pass& pass : stats->passes) {
-    context.ui.label(pass.name.c_str(), "Device time of the newest frame that drew it.");
+    std::string name = pass.name;
+    std::replace(name.begin(), name.end(), '_', ' ');
+    context.ui.label(name.c_str(), "Device time of the newest frame that drew it.");
     ImGui::Text(pass.runs > 0 ? "%.1f ms" : "kept", pass.gpuMs);
   }
   context.ui.note(fmt::format("{} triangles; maps {:.1f} MB, device {:.0f} MB\n{}", stats->triangles,
@@ -262,8 +267,10 @@ void drawInspectSection(PanelContext& context) {
   if (times.empty()) return;
   context.ui.label("Frames, ms",
                    "Of the last frames that drew; the picture is drawn coarser when they take too long.");
-  ImGui::PlotLines("##frames", times.data(), int(times.size()), 0, nullptr, 0, 100,
-                   {0, float(40 * context.ui.scale())});
+  const float longest = *std::max_element(times.begin(), times.end());
+  const std::string scale = fmt::format("last {:.0f}, longest {:.0f}", times.back(), longest);
+  ImGui::PlotHistogram("##frames", times.data(), int(times.size()), 0, scale.c_str(), 0, 1.6f * longest,
+                       {0, float(40 * context.ui.scale())});
 }
 
 }  // namespace lychnite::viewer

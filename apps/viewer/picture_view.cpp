@@ -268,7 +268,9 @@ const gpu::Texture* PictureView::textureOf(Source source) const {
 
 std::string PictureView::labelOf(Source source) const {
   if (source == Source::kView) return live_.label();
-  return source == Source::kVariant && compares(source) ? variant_.label() : "";
+  if (source == Source::kVariant && compares(source)) return variant_.label();
+  const auto truth = source == Source::kTruth ? walk() : std::nullopt;
+  return truth ? fmt::format("noise {:.1f} %, {:.0f} s", 100 * truth->noise, truth->seconds) : "";
 }
 
 std::string PictureView::keyOf(Source source) const {

@@ -126,7 +126,7 @@ void Ui::setTheme() {
   style.FramePadding = {6, 3};
   style.ItemSpacing = {6, 5};
   style.ScrollbarSize = 10;
-  style.GrabMinSize = 8;
+  style.GrabMinSize = 5;  // the number lies over it
   const auto grey = [](float v, float a = 1) { return ImVec4(v, v, v * 1.02f, a); };
   const auto amber = [](float a) { return ImVec4(0.85f, 0.62f, 0.33f, a); };
   ImVec4* c = style.Colors;
@@ -143,9 +143,10 @@ void Ui::setTheme() {
   c[ImGuiCol_Header] = grey(0.155f);
   c[ImGuiCol_HeaderHovered] = grey(0.21f);
   c[ImGuiCol_HeaderActive] = grey(0.24f);
-  c[ImGuiCol_SliderGrab] = amber(0.6f);
+  c[ImGuiCol_SliderGrab] = amber(0.5f);
   c[ImGuiCol_SliderGrabActive] = amber(1);
   c[ImGuiCol_CheckMark] = amber(1);
+  c[ImGuiCol_PlotHistogram] = c[ImGuiCol_PlotHistogramHovered] = amber(0.45f);
   c[ImGuiCol_TextSelectedBg] = amber(0.35f);
   c[ImGuiCol_Separator] = grey(0.2f);
   c[ImGuiCol_ScrollbarBg] = grey(0.115f);
@@ -270,7 +271,7 @@ bool Ui::sliders(const char* text, const char* help, Rgb& value, double low, dou
   const float gap = float(4 * scale_), width = (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;
   const ImGuiSliderFlags flags = logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None;
   static const ImVec4 kTints[3] = {
-      {0.75f, 0.35f, 0.33f, 0.6f}, {0.4f, 0.65f, 0.38f, 0.6f}, {0.38f, 0.52f, 0.8f, 0.6f}};
+      {0.75f, 0.35f, 0.33f, 0.55f}, {0.4f, 0.65f, 0.38f, 0.5f}, {0.38f, 0.52f, 0.8f, 0.55f}};
   bool changed = false;
   for (int c = 0; c < 3; ++c) {
     if (c > 0) ImGui::SameLine(0, gap);
