@@ -20,9 +20,6 @@ uniform float mostRefinement;  // doublings of their number, at most, where the 
 const float kDark = 1e-7;  // a texel with less flux is empty
 const float kTexelRadius = 0.5641896;  // of the disc with a texel's area
 
-vec3 profileRd(float r) {
-  return textureLod(profile, vec2(profileCoordinate(r, profileScale), 0.25), 0.0).xyz;
-}
 vec3 profileP(float r) {
   return textureLod(profile, vec2(profileCoordinate(r, profileScale), 0.75), 0.0).xyz;
 }
@@ -101,12 +98,12 @@ struct Sum {
   vec3 faintest;      // smallest kernel among the outermost quarter
 };
 
-// Mean of the kernel over the ring of squared distances a2 to b2. In a thin ring P's digits cancel: the kernel at its
-// middle.
+// Mean of the kernel over the ring between two squared distances. A thin ring, in which P's digits cancel, is widened to
+// 2 % of its square: the mean of a smooth kernel hardly differs.
 vec3 kernelMean(float a2, float b2) {
-  float width = b2 - a2;
-  if (width > 0.02 * b2) return (profileP(sqrt(a2)) - profileP(sqrt(b2))) / (3.141592653589793 * width);
-  return profileRd(sqrt(0.5 * (a2 + b2)));
+  float most = max(a2, b2);
+  float least = min(min(a2, b2), 0.98 * most);
+  return (profileP(sqrt(least)) - profileP(sqrt(most))) / (3.141592653589793 * (most - least));
 }
 
 // Kernel of one cell whose flux sits at height `height` above the receiver at the cell's middle radius q. Distances are
@@ -116,7 +113,7 @@ vec3 cellKernel(float a, float b, float q, float start, float height, float wind
   float hb = start + (height - start) * b / q;
   float a2 = a * a + ha * ha + window * window;
   float b2 = b * b + hb * hb + window * window;
-  return kernelMean(min(a2, b2), max(a2, b2));
+  return kernelMean(a2, b2);
 }
 
 // The receiver's spiral: it fills the object's circle, which lies off the receiver by e0.
@@ -189,19 +186,14 @@ void addCell(inout Sum sum, Ground g, Cell c, bool outermost) {
   float footprint = exp2(level) * g.texel;
   float slope2 = max((height - g.depth) * (height - g.depth) / (c.q * c.q), g.slope2);
   variance -= 0.25 * slope2 * footprint * footprint;
-  vec3 f;
-  if (variance <= 1e-9) {
-    f = cellKernel(c.a, c.b, c.q, g.depth, height, g.window);
-  } else {
-    // Two nodes with the flux's mean, variance and skewness.
-    float third = m.z - 3.0 * m.x * m.y + 2.0 * m.x * m.x * m.x;
-    float deviation = sqrt(variance);
-    float skew = clamp(third / (variance * deviation), -20.0, 20.0);
-    float root = sqrt(skew * skew + 4.0);
-    float w = 0.5 * (skew + root) / root;
-    f = w * cellKernel(c.a, c.b, c.q, g.depth, height + 0.5 * deviation * (skew - root), g.window) +
-        (1.0 - w) * cellKernel(c.a, c.b, c.q, g.depth, height + 0.5 * deviation * (skew + root), g.window);
-  }
+  // Two nodes with the flux's mean, variance and skewness; without a spread they are one.
+  float third = m.z - 3.0 * m.x * m.y + 2.0 * m.x * m.x * m.x;
+  float deviation = sqrt(max(variance, 0.0));
+  float skew = variance > 1e-9 ? clamp(third / (variance * deviation), -20.0, 20.0) : 0.0;
+  float root = sqrt(skew * skew + 4.0);
+  float w = 0.5 * (skew + root) / root;
+  vec3 f = w * cellKernel(c.a, c.b, c.q, g.depth, height + 0.5 * deviation * (skew - root), g.window) +
+           (1.0 - w) * cellKernel(c.a, c.b, c.q, g.depth, height + 0.5 * deviation * (skew + root), g.window);
   sum.radiosity += c.area * t.x * f;
   sum.weighted += c.area * c.area * t.x * f;
   sum.weight += c.area * c.area * t.x;

@@ -28,6 +28,18 @@ void Buffer::uploadBytes(std::span<const std::byte> content) {
   setBytes(content.size());
 }
 
+void Buffer::resize(size_t size) {
+  if (size == bytes()) return;
+  glNamedBufferData(id(), static_cast<GLsizeiptr>(size), nullptr, GL_DYNAMIC_COPY);
+  setBytes(size);
+}
+
+void Buffer::clear(size_t size) {
+  assert(size <= bytes() && size % 4 == 0);
+  glClearNamedBufferSubData(id(), GL_R32UI, 0, static_cast<GLsizeiptr>(size), GL_RED_INTEGER, GL_UNSIGNED_INT,
+                            nullptr);
+}
+
 void Buffer::update(size_t offset, std::span<const std::byte> content) {
   assert(offset + content.size() <= bytes());
   glNamedBufferSubData(id(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(content.size()),
@@ -36,6 +48,7 @@ void Buffer::update(size_t offset, std::span<const std::byte> content) {
 
 std::vector<std::byte> Buffer::download() const {
   std::vector<std::byte> content(bytes());
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);  // what shaders wrote
   if (!content.empty())
     glGetNamedBufferSubData(id(), 0, static_cast<GLsizeiptr>(content.size()), content.data());
   return content;

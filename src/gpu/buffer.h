@@ -8,7 +8,8 @@
 
 namespace lychnite::gpu {
 
-/// Linear device memory: vertices, indices or a uniform block. Re-allocates only when the size changes.
+/// Linear device memory: vertices, indices, a uniform block or a shader's storage. Re-allocates only when the
+/// size changes.
 class Buffer : public Object {
  public:
   explicit Buffer(std::string label);
@@ -22,6 +23,10 @@ class Buffer : public Object {
   void upload(const std::vector<T>& values) {
     upload(std::span<const T>(values));
   }
+  /// Makes it `bytes` long, the content undefined, unless it is that long already.
+  void resize(size_t bytes);
+  /// The first `bytes` (a multiple of 4) become 0.
+  void clear(size_t bytes);
   /// Replaces bytes from `offset` (bytes) on; they must lie inside the buffer.
   void update(size_t offset, std::span<const std::byte> bytes);
   /// Reads everything back (waits for the device).

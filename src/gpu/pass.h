@@ -50,4 +50,8 @@ class Pass {
   std::shared_ptr<ContextState> state_;
 };
 
+/// Runs `groups` work groups of a compute program, outside any pass. What shaders wrote to storage before is
+/// seen by them, and what they write to storage and images by all draws and dispatches after.
+void dispatch(const std::string& label, const Program& program, int groups);
+
 }  // namespace lychnite::gpu

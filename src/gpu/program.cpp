@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 
 #include <glm/gtc/type_ptr.hpp>
+#include <memory>
 #include <vector>
 
 #include "gpu/buffer.h"
@@ -58,7 +59,8 @@ void link(GLuint program, const ProgramDesc& desc) {
   glGetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
   std::string log(static_cast<size_t>(length) + 1, '\0');
   glGetProgramInfoLog(program, static_cast<GLsizei>(log.size()), nullptr, log.data());
-  throwBadShader({desc.vertex + " + " + desc.fragment, linkMessage(log.c_str())}, desc.label);
+  const std::string files = desc.compute.empty() ? desc.vertex + " + " + desc.fragment : desc.compute;
+  throwBadShader({files, linkMessage(log.c_str())}, desc.label);
 }
 
 void deleteProgram(uint32_t id) {
@@ -82,16 +84,23 @@ bool isSampler(GLenum type) {
 
 Program::Program(const ProgramDesc& desc) : Object(glCreateProgram(), GL_PROGRAM, deleteProgram, desc.label) {
   const std::filesystem::path root = desc.root.empty() ? findShaderDir() : desc.root;
-  const Shader vertex(GL_VERTEX_SHADER), fragment(GL_FRAGMENT_SHADER);
-  compile(vertex, assembleShader(root, desc.vertex, GlslDialect::kDesktop450, desc.defines), desc.label);
-  compile(fragment, assembleShader(root, desc.fragment, GlslDialect::kDesktop450, desc.defines), desc.label);
-  glAttachShader(id(), vertex.id);
-  glAttachShader(id(), fragment.id);
+  std::vector<std::unique_ptr<Shader>> shaders;
+  const auto add = [&](GLenum stage, const std::string& file) {
+    shaders.push_back(std::make_unique<Shader>(stage));
+    compile(*shaders.back(), assembleShader(root, file, GlslDialect::kDesktop450, desc.defines), desc.label);
+    glAttachShader(id(), shaders.back()->id);
+  };
+  if (desc.compute.empty()) {
+    add(GL_VERTEX_SHADER, desc.vertex);
+    add(GL_FRAGMENT_SHADER, desc.fragment);
+  } else {
+    add(GL_COMPUTE_SHADER, desc.compute);
+  }
   link(id(), desc);
-  glDetachShader(id(), vertex.id);
-  glDetachShader(id(), fragment.id);
+  for (const auto& shader : shaders) glDetachShader(id(), shader->id);
   readUniforms();
   readBlocks();
+  readStorage();
 }
 
 void Program::readUniforms() {
@@ -108,6 +117,11 @@ void Program::readUniforms() {
     if (place < 0) continue;  // a member of a block
     if (name.ends_with("[0]")) name.resize(name.size() - 3);
     locations_[name] = place;
+    if (type == GL_IMAGE_2D) {
+      const int number = static_cast<int>(images_.size());
+      glProgramUniform1i(id(), place, number);
+      images_[name] = {number, 0, 0};
+    }
     if (!isSampler(type)) continue;
     const int unit = static_cast<int>(units_.size());
     glProgramUniform1i(id(), place, unit);
@@ -124,6 +138,20 @@ void Program::readBlocks() {
     glGetActiveUniformBlockName(id(), i, static_cast<GLsizei>(buffer.size()), nullptr, buffer.data());
     glUniformBlockBinding(id(), i, i);
     blocks_[buffer.data()] = {i, 0};
+  }
+}
+
+void Program::readStorage() {
+  GLint count = 0, longest = 0;
+  glGetProgramInterfaceiv(id(), GL_SHADER_STORAGE_BLOCK, GL_ACTIVE_RESOURCES, &count);
+  glGetProgramInterfaceiv(id(), GL_SHADER_STORAGE_BLOCK, GL_MAX_NAME_LENGTH, &longest);
+  std::vector<char> buffer(static_cast<size_t>(longest) + 1);
+  for (GLint i = 0; i < count; ++i) {
+    const auto index = static_cast<GLuint>(i);
+    glGetProgramResourceName(id(), GL_SHADER_STORAGE_BLOCK, index, static_cast<GLsizei>(buffer.size()),
+                             nullptr, buffer.data());
+    glShaderStorageBlockBinding(id(), index, index);
+    storage_[buffer.data()] = {i, 0};
   }
 }
 
@@ -200,15 +228,32 @@ void Program::setTexture(std::string_view sampler, const Texture& texture) {
   if (found != units_.end()) found->second.object = ObjectAccess::id(texture);
 }
 
+void Program::setImage(std::string_view image, const Texture& texture) {
+  const auto found = images_.find(image);
+  if (found == images_.end()) return;
+  found->second.object = ObjectAccess::id(texture);
+  found->second.format = internalFormat(texture.format());
+}
+
 void Program::setBlock(std::string_view block, const Buffer& buffer) {
   const auto found = blocks_.find(block);
   if (found != blocks_.end()) found->second.object = ObjectAccess::id(buffer);
+}
+
+void Program::setStorage(std::string_view block, const Buffer& buffer) {
+  const auto found = storage_.find(block);
+  if (found != storage_.end()) found->second.object = ObjectAccess::id(buffer);
 }
 
 void Program::bind() const {
   glUseProgram(id());
   for (const auto& [name, slot] : units_) glBindTextureUnit(slot.number, slot.object);
   for (const auto& [name, slot] : blocks_) glBindBufferBase(GL_UNIFORM_BUFFER, slot.number, slot.object);
+  for (const auto& [name, image] : images_)
+    glBindImageTexture(static_cast<GLuint>(image.number), image.object, 0, GL_FALSE, 0, GL_WRITE_ONLY,
+                       image.format);
+  for (const auto& [name, slot] : storage_)
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(slot.number), slot.object);
 }
 
 }  // namespace lychnite::gpu

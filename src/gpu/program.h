@@ -23,14 +23,15 @@ class Texture;
 struct ProgramDesc {
   std::string label{};
   std::string vertex{}, fragment{};  ///< files below the shader folder, e.g. "pass/geometry.vert"
-  ShaderDefines defines{};           ///< for both stages
+  std::string compute{};             ///< the same; instead of the two others
+  ShaderDefines defines{};           ///< for all stages
   std::filesystem::path root{};      ///< the shader folder; empty: findShaderDir()
 };
 
-/// A vertex and a fragment shader, linked. Throws Error (kDevice) with the file and line of the first
-/// mistake, also inside an included file. Uniforms are set by name at any time; a name the program does not
-/// have (or the compiler removed) is ignored. A wrong type makes the driver report an error, see
-/// Context::checkErrors().
+/// A vertex and a fragment shader, or a compute shader, linked. Throws Error (kDevice) with the file and line
+/// of the first mistake, also inside an included file. Uniforms are set by name at any time; a name the
+/// program does not have (or the compiler removed) is ignored. A wrong type makes the driver report an error,
+/// see Context::checkErrors().
 class Program : public Object {
  public:
   explicit Program(const ProgramDesc& desc);
@@ -57,8 +58,13 @@ class Program : public Object {
   /// What the sampler reads from the next draw on. The texture must live until then; the program keeps its
   /// own numbering of texture units.
   void setTexture(std::string_view sampler, const Texture& texture);
+  /// The texture's first level, which must be of 4 or 16 bytes a texel as the shader declares it, for a
+  /// shader to write to, likewise.
+  void setImage(std::string_view image, const Texture& texture);
   /// The uniform block's storage (std140), likewise.
   void setBlock(std::string_view block, const Buffer& buffer);
+  /// The shader storage block's memory (std430), likewise.
+  void setStorage(std::string_view block, const Buffer& buffer);
 
  private:
   friend struct ProgramAccess;
@@ -67,14 +73,21 @@ class Program : public Object {
     int number = 0;
     uint32_t object = 0;
   };
+  struct Image {
+    int number = 0;
+    uint32_t object = 0, format = 0;
+  };
   int location(std::string_view uniform) const;
   void readUniforms();
   void readBlocks();
+  void readStorage();
   void bind() const;
 
   std::map<std::string, int, std::less<>> locations_;
   std::map<std::string, Slot, std::less<>> units_;
+  std::map<std::string, Image, std::less<>> images_;
   std::map<std::string, Slot, std::less<>> blocks_;
+  std::map<std::string, Slot, std::less<>> storage_;
 };
 
 }  // namespace lychnite::gpu

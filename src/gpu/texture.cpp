@@ -130,6 +130,10 @@ void readRows(GLuint id, const FormatInfo& info, int level, int width, int heigh
 
 }  // namespace
 
+uint32_t internalFormat(Format format) {
+  return infoOf(format).internal;
+}
+
 int channels(Format format) {
   return infoOf(format).channels;
 }

@@ -17,6 +17,8 @@ enum class Wrap { kClampToEdge, kClampToBorder, kRepeat };
 int channels(Format format);
 /// Bytes of a texel on the device.
 size_t texelBytes(Format format);
+/// The driver's name of a format.
+uint32_t internalFormat(Format format);
 /// Levels of a full mip chain.
 int fullLevels(int width, int height);
 

@@ -4,8 +4,7 @@
 
 namespace lychnite {
 
-bool Layer::update(const std::string& label, const Key& key, const Frame& frame, const GeometryPass& geometry,
-                   const Prepare& prepare) {
+bool Layer::update(const std::string& label, const Key& key, const Frame& frame, const Shade& shade) {
   const int width = frame.camera.width, height = frame.camera.height;
   const bool fits = targets_ && targets_->texture.width() == width && targets_->texture.height() == height;
   if (fits && key == key_) return false;
@@ -19,15 +18,21 @@ bool Layer::update(const std::string& label, const Key& key, const Frame& frame,
   targets_->framebuffer.clearColour(0, {0, 0, 0, 0});
   for (size_t i = 0; i < frame.objects.size(); ++i) {
     const gpu::Rect bounds = screenBounds(frame, frame.objects[i]);
-    if (bounds.width <= 0 || bounds.height <= 0) continue;
-    gpu::Program* program = prepare(i);
-    if (!program) continue;
-    setReceiverUniforms(*program, frame, geometry.samples(), i);
-    gpu::Pass pass(label, targets_->framebuffer, {.blend = gpu::Blend::kAdd, .scissor = bounds});
-    pass.drawFullScreen(*program);
+    if (bounds.width > 0 && bounds.height > 0) shade(i, {targets_->framebuffer, bounds});
   }
   key_ = key;
   return true;
+}
+
+bool Layer::update(const std::string& label, const Key& key, const Frame& frame, const GeometryPass& geometry,
+                   const Prepare& prepare) {
+  return update(label, key, frame, [&](size_t object, const Target& target) {
+    gpu::Program* program = prepare(object);
+    if (!program) return;
+    setReceiverUniforms(*program, frame, geometry.samples(), object);
+    gpu::Pass pass(label, target.framebuffer, {.blend = gpu::Blend::kAdd, .scissor = target.bounds});
+    pass.drawFullScreen(*program);
+  });
 }
 
 }  // namespace lychnite

@@ -45,6 +45,7 @@ void ProfileCache::update(const Frame& frame, ProfileKind kind, const ProfileMak
       entry.table.emplace(tableTexture(table));
       entry.reach = spiralReach(*profile);
       entry.spiralScale = spiralScale(*profile);
+      entry.coreLength = entry.spiralScale / 3;
       entry.scale = float(table.scale());
       entry.total = makeProfile(maker, {kind, m, ProfileOrders::kAll}, progress)->P(0);
     } else {

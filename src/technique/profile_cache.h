@@ -20,6 +20,7 @@ class ProfileCache {
     std::optional<gpu::Texture> table;  ///< rows from below: Rd, P
     double reach = 1;                   ///< beyond it the profile is dark, scene units
     double spiralScale = 1;             ///< of the matched sampler, scene units
+    double coreLength = 1;              ///< mean over the channels, scene units; see Profile::coreLength
     float scale = 1;                    ///< of the table's coordinate, scene units
     Rgb total{0};                       ///< P(0), the diffuse reflectance of the half-space
     double piC = 1;                     ///< pi C(eta) of the exit lobe

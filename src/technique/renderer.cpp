@@ -9,6 +9,7 @@
 #include "lychnite/base/error.h"
 #include "lychnite/gpu/context.h"
 #include "technique/composite/composite_pass.h"
+#include "technique/multiple/matched_shading.h"
 #include "technique/multiple/sample_view.h"
 #include "technique/read_back.h"
 #include "technique/renderer_textures.h"

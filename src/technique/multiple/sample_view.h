@@ -4,6 +4,7 @@
 
 #include "gpu/framebuffer.h"
 #include "gpu/program.h"
+#include "technique/multiple/matched_shading.h"
 #include "technique/renderer_textures.h"
 #include "technique/shading.h"
 

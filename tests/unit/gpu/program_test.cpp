@@ -1,5 +1,8 @@
 #include "gpu/program.h"
 
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
 #include <glm/glm.hpp>
 #include <vector>
 
@@ -108,6 +111,62 @@ TEST_F(ProgramTest, ALinkErrorNamesBothFiles) {
   const Error::Parts parts = errorOf([] { Program program(fullScreen("pass/not_linked.frag")); });
   EXPECT_EQ(parts.where, "pass/full_screen.vert + pass/not_linked.frag");
   EXPECT_NE(parts.found.find("neverWritten"), std::string::npos) << parts.found;
+}
+
+ProgramDesc computing(const std::string& file, const std::filesystem::path& root) {
+  ProgramDesc desc;
+  desc.label = file;
+  desc.compute = file;
+  desc.root = root;
+  return desc;
+}
+
+std::vector<uint32_t> numbers(const Buffer& buffer) {
+  const std::vector<std::byte> bytes = buffer.download();
+  std::vector<uint32_t> result(bytes.size() / sizeof(uint32_t));
+  std::memcpy(result.data(), bytes.data(), bytes.size());
+  return result;
+}
+
+TEST_F(ProgramTest, WhatAPassListsAComputeProgramReadsAndWrites) {
+  const Texture drawn({.label = "d", .format = Format::kRgba32f, .width = 6, .height = 3});
+  Texture result({.label = "r", .format = Format::kRgba32f, .width = 6, .height = 1});
+  result.upload(Floats(24, -1.0f));
+  Framebuffer framebuffer({.label = "d", .colours = {drawn}});
+  Buffer list("list");
+  list.resize(8 * sizeof(uint32_t));
+  list.clear(8 * sizeof(uint32_t));
+  Program append(fullScreen("pass/append.frag"));
+  append.setStorage("List", list);
+  Pass("append", framebuffer, {.scissor = Rect{1, 0, 4, 3}}).drawFullScreen(append);
+  std::vector<uint32_t> listed = numbers(list);
+  ASSERT_EQ(listed[0], 4u);
+  std::sort(listed.begin() + 1, listed.begin() + 5);
+  EXPECT_EQ(std::vector(listed.begin() + 1, listed.begin() + 5), (std::vector<uint32_t>{1, 2, 3, 4}));
+
+  Program scatter(computing("compute/scatter.comp", shaderRoot()));
+  scatter.setStorage("List", list);
+  scatter.setImage("target", result);
+  dispatch("scatter", scatter, 3);
+  const std::vector<float> texels = result.download();
+  const std::vector<uint32_t> doubled = numbers(list);
+  double sum = 0;
+  for (int column = 0; column < 6; ++column) {
+    const float number = texels[size_t(column) * 4];
+    if (column == 0 || column == 5) {
+      EXPECT_EQ(number, -1.0f) << "nobody listed column " << column;
+      continue;
+    }
+    sum += number;
+    EXPECT_EQ(doubled[size_t(number)], 2u * uint32_t(column)) << "column " << column;
+  }
+  EXPECT_EQ(sum, 1 + 2 + 3 + 4);
+}
+
+TEST_F(ProgramTest, AMistakeInAComputeShaderNamesItsLine) {
+  const Error::Parts parts = errorOf([] { Program program(computing("compute/broken.comp", shaderRoot())); });
+  EXPECT_EQ(parts.where, "compute/broken.comp:2");
+  EXPECT_NE(parts.found.find("undefinedName"), std::string::npos) << parts.found;
 }
 
 TEST_F(ProgramTest, TimersMeasureWork) {

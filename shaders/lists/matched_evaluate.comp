@@ -1,0 +1,27 @@
+// Multiple scattering by the matched sampler, second part: the listed receivers.
+#include "pass/matched_sampler.glsl"
+#include "lists/matched_sites.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(std430) readonly buffer Sites {
+  uint siteCount;
+  uint sites[];
+};
+// Of a coarse level its values; of a picture four rows for each, one for each receiver of a pixel.
+layout(rgba32f) writeonly uniform image2D evaluated;
+uniform int firstRow;
+
+void main() {
+  LightView view = lightView();
+  uint step = gl_NumWorkGroups.x * gl_WorkGroupSize.x;
+  for (uint i = gl_GlobalInvocationID.x; i < siteCount; i += step) {
+    Receiver receivers[4];
+    ivec2 site = siteOf(sites[i]);
+    int number = receiverOf(sites[i]);
+    loadReceivers(firstSample(site), receivers);
+    Receiver r = receivers[number];
+    ivec2 at = level > 0 ? site : ivec2(site.x, (site.y - firstRow) * 4 + number);
+    imageStore(evaluated, at, vec4(shownAs(r) * litRadiosity(view, r), 0.0));
+  }
+}
