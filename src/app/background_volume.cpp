@@ -37,7 +37,7 @@ void BackgroundVolume::Impl::refine(const RefinerJob& job, const VolumeRefiner::
     auto image = std::make_shared<const Image>(solver.picture(s, progress));
     const int passes = solver.stats().passes;
     if (!ticket.publish({.image = std::move(image), .passes = passes, .obstacle = ""})) return;
-    if (passes >= most || passes == 0) return;  // 0: there is no light
+    if (passes >= most || job.scene.lights.empty()) return;
     solver.refine(progress);
   }
 }

@@ -38,6 +38,16 @@ struct Diffusion {
     return z < d ? std::exp(-k * (d - z)) * scaledU(z) / scaledU(d) : 1;
   }
 
+  /// The same shares of a beam from the surface down to depth `end` <= d that collides `a` times per depth.
+  double beamLeaving(double a, double end, double d) const {
+    return a / (k * scaledU(d)) * (exponential(0, -(a + k), end) - exponential(-2 * k * d, k - a, end));
+  }
+  double beamStaying(double a, double end, double d) const {
+    return a / scaledU(d) *
+           ((1 / k + zb) * exponential(-k * d, k - a, end) +
+            (zb - 1 / k) * exponential(-k * d, -(a + k), end));
+  }
+
   /// Fourier transform at wave number q (radians per length) of a half-space's diffuse reflectance profile: a
   /// source and its mirror image, as in Jensen et al. 2001, with this D and zb.
   double response(double q) const {
@@ -50,6 +60,12 @@ struct Diffusion {
   double scaledU(double z) const {
     const double e = std::expm1(-2 * k * z);
     return -e / k + zb * (2 + e);
+  }
+  /// Integral of exp(b + c z) from 0 to `end`, for b <= 0 and b + c end <= 0.
+  static double exponential(double b, double c, double end) {
+    const double x = c * end;
+    if (std::abs(x) < 1e-9) return std::exp(b) * end;
+    return std::abs(x) < 1 ? std::exp(b) * std::expm1(x) / c : (std::exp(b + x) - std::exp(b)) / c;
   }
 };
 

@@ -81,28 +81,24 @@ RayLight unitPower(const RayLight& light) {
 }  // namespace
 
 Traced traceLight(const World& world, const std::vector<Emission>& emission, const RayLight& light,
-                  int collisions, uint64_t seed, int pass, int oneOf) {
+                  int collisions, uint64_t seed, int pass) {
   Traced result;
   for (auto& half : result.deposits)
     for (const auto& body : world.bodies) half.push_back(body ? Deposits(*body) : Deposits());
   for (size_t object = 0; object < world.bodies.size(); ++object) {
     if (!world.bodies[object]) continue;
     Pass one{world, emission[object], unitPower(light), object, collisions, seed, pass, {}};
-    // Later passes shift all points and numbers (Cranley & Patterson 1976); while there are parts of passes
-    // they take the points between those of the ones before.
-    const bool shifted = pass > 0 && oneOf == 1;
+    // Later passes shift all points and numbers (Cranley & Patterson 1976).
     Rng shifts(seed, uint64_t(pass));
-    for (float& s : one.shift) s = shifted ? shifts.uniform() : 0;
-    const auto step = size_t(oneOf), offset = pass == 0 ? 0 : step / 2;
-    const size_t count = (emission[object].points().size() - offset + step - 1) / step;
+    for (float& s : one.shift) s = pass > 0 ? shifts.uniform() : 0;
+    const size_t count = emission[object].points().size();
     const size_t blocks = (count + kBlock - 1) / kBlock;
     std::vector<std::vector<Tracer::Record>> records(2 * blocks);
     std::vector<Tally> tallies(2 * blocks);
     tbb::parallel_for(size_t(0), 2 * blocks, [&](size_t b) {
       Tracer tracer(world, records[b]);
       const size_t begin = b / 2 * kBlock + b % 2;
-      for (size_t i = begin; i < std::min(count, (b / 2 + 1) * kBlock); i += 2)
-        one.follow(tracer, offset + i * step);
+      for (size_t i = begin; i < std::min(count, (b / 2 + 1) * kBlock); i += 2) one.follow(tracer, i);
       tallies[b] = tracer.tally();
     });
     for (size_t b = 0; b < 2 * blocks; ++b) {
@@ -113,6 +109,12 @@ Traced traceLight(const World& world, const std::vector<Emission>& emission, con
   return result;
 }
 
+RayHit middleOf(const World& world, size_t object, uint32_t sample) {
+  const Surface& surface = world.bodies[object]->shape->surface;
+  const glm::vec2 at = surface.pointOf(sample, 1.0f / 3, 1.0f / 3);
+  return world.rays->hitOf(int(object), surface.samples()[sample].triangle, at.x, at.y, 0);
+}
+
 namespace {
 
 /// Flux that enters each sample if nothing shades it, and each node's sample that gets most.
@@ -120,12 +122,6 @@ struct Unshaded {
   std::vector<float> samples;
   std::vector<uint32_t> brightest;
 };
-
-RayHit middleOf(const World& world, size_t object, uint32_t sample) {
-  const Surface& surface = world.bodies[object]->shape->surface;
-  const glm::vec2 at = surface.pointOf(sample, 1.0f / 3, 1.0f / 3);
-  return world.rays->hitOf(int(object), surface.samples()[sample].triangle, at.x, at.y, 0);
-}
 
 Unshaded unshadedFlux(const World& world, size_t object, const RayLight& light) {
   const Body& body = *world.bodies[object];
@@ -149,13 +145,13 @@ Unshaded unshadedFlux(const World& world, size_t object, const RayLight& light) 
 
 }  // namespace
 
-std::vector<std::vector<float>> enteringFlux(const World& world, const RayLight& light) {
+std::vector<Entering> enteringFlux(const World& world, const RayLight& light) {
   const RayLight unit = unitPower(light);
-  std::vector<std::vector<float>> result(world.bodies.size());
+  std::vector<Entering> result(world.bodies.size());
   for (size_t object = 0; object < world.bodies.size(); ++object) {
     if (!world.bodies[object]) continue;
     const auto& samples = world.bodies[object]->shape->surface.samples();
-    const Unshaded unshaded = unshadedFlux(world, object, unit);
+    Unshaded unshaded = unshadedFlux(world, object, unit);
     const size_t nodes = unshaded.brightest.size();
     std::vector<char> lit(nodes, 0);
     tbb::parallel_for(size_t(0), nodes, [&](size_t n) {
@@ -165,9 +161,10 @@ std::vector<std::vector<float>> enteringFlux(const World& world, const RayLight&
       const glm::vec3 towards(seen.direction);
       lit[n] = !world.rays->occluded(offPoint(hit, towards), towards, float(seen.distance));
     });
-    result[object].assign(nodes, 0);
+    result[object].flux.assign(nodes, 0);
     for (uint32_t s = 0; s < samples.size(); ++s)
-      if (lit[samples[s].node]) result[object][samples[s].node] += unshaded.samples[s];
+      if (lit[samples[s].node]) result[object].flux[samples[s].node] += unshaded.samples[s];
+    result[object].brightest = std::move(unshaded.brightest);
   }
   return result;
 }

@@ -24,17 +24,23 @@ class Emission {
 };
 
 /// What a light of power 1 (irradiance, or intensity in scene units) leaves in each body: pass number `pass`
-/// of photons, from one of `oneOf` points only, each of which stands for itself: what comes out is so much
-/// less. Each pass has its own random numbers, always the same.
+/// of photons. Each pass has its own random numbers, always the same.
 struct Traced {
   std::vector<Deposits> deposits[2];  ///< of every other photon
   Tally tally;                        ///< of all
 };
 Traced traceLight(const World& world, const std::vector<Emission>& emission, const RayLight& light,
-                  int collisions, uint64_t seed, int pass, int oneOf);
+                  int collisions, uint64_t seed, int pass);
 
-/// Flux of a light of power 1 that enters each node of each body, straight from the light: the samples'
-/// cosines and Fresnel terms, and one look for shadows a node.
-std::vector<std::vector<float>> enteringFlux(const World& world, const RayLight& light);
+/// Flux of a light of power 1 that enters each node of a body, straight from the light: the samples' cosines
+/// and Fresnel terms, and one look for shadows a node, from the sample that gets most.
+struct Entering {
+  std::vector<float> flux;
+  std::vector<uint32_t> brightest;  ///< sample of each node; kNone where all turn away from the light
+};
+std::vector<Entering> enteringFlux(const World& world, const RayLight& light);
+
+/// The middle of a sample, scene units.
+RayHit middleOf(const World& world, size_t object, uint32_t sample);
 
 }  // namespace lychnite::volume

@@ -10,21 +10,24 @@ namespace lychnite::volume {
 
 namespace {
 
-// Standard deviations of the smoothing, voxels. The least, and the only one of cleanedQuickly(), falls with
-// the sixth root of the photons' density, from kWidest to kLeastWidth.
+// Standard deviations of the smoothing, voxels. The least falls with the sixth root of the photons' density,
+// from kWidest to kLeastWidth.
 constexpr size_t kWidths = 4;
-constexpr double kLeastWidth = 0.5, kWidest = 4, kWidthOfOne = 1.9;
+constexpr double kLeastWidth = 0.5, kWidest = 6, kWidthOfOne = 1.9;
 constexpr double kPhotonsOfOne = 8;  // per voxel's face, where it is kWidthOfOne
-constexpr float kBlock = 4;          // voxels: errors are averaged over 3 x 3 x 3 blocks of this side
-constexpr double kChoiceWidth = 2;   // voxels, by which the choice of widths is blended
+constexpr double kBeamWidth = 1.3;   // of what has no noise: hides the cells
+constexpr double kAgainWidth = 2.5;
+constexpr double kBeams = 12;       // looks of the first order per voxel's face, about
+constexpr float kBlock = 4;         // voxels: errors are averaged over 3 x 3 x 3 blocks of this side
+constexpr double kChoiceWidth = 2;  // voxels, by which the choice of widths is blended
 constexpr double kVarianceWidth = 2;
 
 using Field = std::vector<Lanes>;
 
 constexpr Lanes kZero{0, 0, 0, 0};
 
-double leastWidth(const NodeEstimate& estimate) {
-  return std::clamp(kWidthOfOne * std::pow(estimate.photons / kPhotonsOfOne, -1.0 / 6), kLeastWidth, kWidest);
+double leastWidth(double photons) {
+  return std::clamp(kWidthOfOne * std::pow(photons / kPhotonsOfOne, -1.0 / 6), kLeastWidth, kWidest);
 }
 
 Smoother::Response gaussian(double width) {
@@ -40,53 +43,38 @@ Smoother::Response twice(double width) {
   };
 }
 
-Smoother::Response product(const Smoother::Response& a, const Smoother::Response& b) {
-  return [&a, b](double q, int c) { return a(q, c) * b(q, c); };
-}
-
-/// Scaled so that flux is kept whatever the polynomial leaves out.
-Smoother::Filter conserving(Smoother::Filter filter) {
-  Lanes sum = kZero;
-  for (const Lanes& c : filter) sum += c;
-  for (Lanes& c : filter) c /= sum;
-  return filter;
-}
-
-/// What is left of each half without the half-space's model, smoothed by each width.
+/// What each half differs from the beams by, as it is and smoothed by each width.
 struct Residuals {
-  Field model;
+  Field raw[2];
   std::vector<Field> smooth[2];
 };
 
-Residuals residualsOf(const Smoother& smoother, const NodeEstimate& estimate,
-                      const Smoother::Response& response) {
-  const double least = leastWidth(estimate);
-  std::vector<Smoother::Filter> widths, modelled{smoother.filter(response)};
-  for (size_t w = 0; w < kWidths; ++w) {
-    const double width = least * std::pow(kWidest / least, double(w) / (kWidths - 1));
-    widths.push_back(conserving(smoother.filter(twice(width))));
-    modelled.push_back(smoother.filter(product(response, twice(width))));
-  }
-  auto out = smoother.filtered(
-      {{estimate.half[0], widths}, {estimate.half[1], widths}, {estimate.entering, modelled}});
+Residuals residualsOf(const Smoother& smoother, const NodeEstimate& estimate) {
+  const double least = leastWidth(estimate.photons);
+  std::vector<Smoother::Filter> widths;
   for (size_t w = 0; w < kWidths; ++w)
-    for (size_t half : {0, 1})
-      for (size_t i = 0; i < out[half][w].size(); ++i) out[half][w][i] -= out[2][w + 1][i];
-  return {std::move(out[2][0]), {std::move(out[0]), std::move(out[1])}};
+    widths.push_back(smoother.filter(twice(least * std::pow(kWidest / least, double(w) / (kWidths - 1)))));
+  Residuals result;
+  for (size_t half : {0, 1}) {
+    result.raw[half] = estimate.half[half];
+    for (size_t i = 0; i < estimate.beam.size(); ++i) result.raw[half][i] -= estimate.beam[i];
+  }
+  auto out = smoother.filtered({{result.raw[0], widths}, {result.raw[1], widths}});
+  for (size_t half : {0, 1}) result.smooth[half] = std::move(out[half]);
+  return result;
 }
 
 /// Expected square error of the mean of both halves for each width, up to what is the same for all, in units
 /// that add up over area: a smoothed half against the other as it is holds the bias and all of a half's
 /// noise, of which the mean has half.
-Field squareErrors(const Surface& surface, const NodeEstimate& estimate, const Residuals& residuals) {
+Field squareErrors(const Surface& surface, const Residuals& residuals) {
   const auto& nodes = surface.nodes();
   Field error(nodes.size(), kZero);
   for (size_t i = 0; i < nodes.size(); ++i) {
     if (!(nodes[i].area > 0)) continue;
     for (size_t w = 0; w < kWidths; ++w) {
       const Lanes &a = residuals.smooth[0][w][i], &b = residuals.smooth[1][w][i];
-      const Lanes ab = a + residuals.model[i] - estimate.half[1][i];
-      const Lanes ba = b + residuals.model[i] - estimate.half[0][i];
+      const Lanes ab = a - residuals.raw[1][i], ba = b - residuals.raw[0][i];
       const Lanes s = 0.5f * (ab * ab + ba * ba) - 0.25f * (a - b) * (a - b);
       error[i][int(w)] = (s[0] + s[1] + s[2]) / nodes[i].area;
     }
@@ -134,24 +122,36 @@ Field choose(const Smoother& smoother, const Surface& surface, const Field& erro
       if (errors[i][w] < errors[i][best]) best = w;
     choice[i][best] = nodes[i].area;
   }
-  auto blended =
-      smoother.filtered({{std::move(choice), {conserving(smoother.filter(gaussian(kChoiceWidth)))}}});
+  auto blended = smoother.filtered({{std::move(choice), {smoother.filter(gaussian(kChoiceWidth))}}});
   for (size_t i = 0; i < nodes.size(); ++i)
     blended[0][0][i] = nodes[i].area > 0 ? blended[0][0][i] / nodes[i].area : kZero;
   return std::move(blended[0][0]);
+}
+
+/// What is known without noise: a half-space's response below the cells, the beams above them.
+Field baseOf(const Smoother& smoother, const NodeEstimate& estimate, const Smoother::Response& response,
+             double width) {
+  const auto coarse = twice(width);
+  const auto fine = [&](double q, int c) { return (1 - coarse(q, c)) * response(q, c); };
+  const auto out = smoother.filtered({{estimate.beam, {smoother.filter(coarse)}},
+                                      {estimate.entering, {smoother.filter(fine)}},
+                                      {estimate.again, {smoother.filter(gaussian(kAgainWidth))}}});
+  Field base = out[0][0];
+  for (size_t i = 0; i < base.size(); ++i) base[i] += out[1][0][i] + out[2][0][i];
+  return base;
 }
 
 }  // namespace
 
 NodeFlux cleaned(const Smoother& smoother, const Surface& surface, const NodeEstimate& estimate,
                  const Smoother::Response& response) {
-  Residuals residuals = residualsOf(smoother, estimate, response);
-  const Field share = choose(smoother, surface,
-                             sumsAround(surface.grid(), surface, squareErrors(surface, estimate, residuals)));
+  NodeFlux result{baseOf(smoother, estimate, response, kBeamWidth), {}};
+  if (estimate.half[0].empty()) return result;
+  const Residuals residuals = residualsOf(smoother, estimate);
+  const Field share =
+      choose(smoother, surface, sumsAround(surface.grid(), surface, squareErrors(surface, residuals)));
   const auto& nodes = surface.nodes();
-  NodeFlux result{std::move(residuals.model), {}};
-  Field squares(nodes.size(),
-                kZero);  // of the mean's deviation, units that add up over area
+  Field squares(nodes.size(), kZero);  // of the mean's deviation, units that add up over area
   for (size_t i = 0; i < nodes.size(); ++i) {
     if (!(nodes[i].area > 0)) continue;
     Lanes deviation = kZero;
@@ -162,25 +162,20 @@ NodeFlux cleaned(const Smoother& smoother, const Surface& surface, const NodeEst
     }
     squares[i] = deviation * deviation / nodes[i].area;
   }
-  auto smooth =
-      smoother.filtered({{std::move(squares), {conserving(smoother.filter(gaussian(kVarianceWidth)))}}});
+  auto smooth = smoother.filtered({{std::move(squares), {smoother.filter(gaussian(kVarianceWidth))}}});
   result.variance = std::move(smooth[0][0]);
   for (size_t i = 0; i < nodes.size(); ++i)
     for (int c = 0; c < 3; ++c) result.variance[i][c] = std::max(0.0f, result.variance[i][c] * nodes[i].area);
   return result;
 }
 
-NodeFlux cleanedQuickly(const Smoother& smoother, const NodeEstimate& estimate,
-                        const Smoother::Response& response) {
-  const auto width = twice(leastWidth(estimate));
-  const auto rest = [&](double q, int c) { return (1 - width(q, c)) * response(q, c); };
-  Field both = estimate.half[0];
-  for (size_t i = 0; i < both.size(); ++i) both[i] = 0.5f * (both[i] + estimate.half[1][i]);
-  const auto out = smoother.filtered({{std::move(both), {conserving(smoother.filter(width))}},
-                                      {estimate.entering, {smoother.filter(rest)}}});
-  NodeFlux result{std::move(out[0][0]), {}};
-  for (size_t i = 0; i < result.flux.size(); ++i) result.flux[i] += out[1][0][i];
-  return result;
+std::vector<Lanes> cleanedFirst(const Smoother& smoother, const NodeEstimate& estimate,
+                                const Smoother::Response& response) {
+  NodeEstimate known = estimate;
+  if (!known.half[0].empty())
+    for (size_t i = 0; i < known.beam.size(); ++i)
+      known.beam[i] = 0.5f * (known.half[0][i] + known.half[1][i]);
+  return baseOf(smoother, known, response, leastWidth(std::max(kBeams, estimate.photons)));
 }
 
 }  // namespace lychnite::volume

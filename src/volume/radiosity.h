@@ -4,29 +4,30 @@
 
 namespace lychnite::volume {
 
-/// What is known of the light that leaves a body, flux per node: two estimates from independent photons, and
-/// the flux that enters.
+/// What is known of the light that leaves a body, flux per node.
 struct NodeEstimate {
-  std::vector<Lanes> half[2];
-  std::vector<Lanes> entering;
-  double photons = 1;  ///< starting points per voxel's face of surface, both halves
+  std::vector<Lanes> entering;  ///< flux that enters
+  std::vector<Lanes> beam;      ///< by first collisions alone, without noise
+  std::vector<Lanes> again;     ///< light that left before and entered again
+  std::vector<Lanes> half[2];   ///< two estimates from independent photons; empty without photons
+  double photons = 1;           ///< starting points per voxel's face of surface, both halves
 };
 
 /// Cleaned of the photons' noise.
 struct NodeFlux {
   std::vector<Lanes> flux;
-  std::vector<Lanes> variance;  ///< of the noise that is left in the flux; empty
-                                ///< from cleanedQuickly()
+  std::vector<Lanes> variance;  ///< of the noise that is left in the flux; empty without photons
 };
 
-/// What a half-space of the medium makes of the entering flux is known without noise (`response` to entering
-/// light of wave number q, radians per voxel); what is left is smoothed, at each place as widely as it bears,
-/// which the two halves tell (docs/volume.md).
+/// What a half-space of the medium makes of the entering flux (`response` to light of wave number q, radians
+/// per voxel) and what first collisions make of it in the shape are known without noise; what the photons
+/// differ from them is smoothed, at each place as widely as it bears, which the two halves tell
+/// (docs/volume.md).
 NodeFlux cleaned(const Smoother& smoother, const Surface& surface, const NodeEstimate& estimate,
                  const Smoother::Response& response);
 
-/// The same with one width everywhere: a fifth of the time.
-NodeFlux cleanedQuickly(const Smoother& smoother, const NodeEstimate& estimate,
-                        const Smoother::Response& response);
+/// For light of the first order, of which `beam` is noisy too: smoothed by one width.
+std::vector<Lanes> cleanedFirst(const Smoother& smoother, const NodeEstimate& estimate,
+                                const Smoother::Response& response);
 
 }  // namespace lychnite::volume

@@ -19,7 +19,7 @@ class Smoother {
   using Response = std::function<double(double q, int channel)>;
   /// Chebyshev coefficients, per channel.
   using Filter = std::vector<Lanes>;
-  /// Waves that the kernel leaves less than a fiftieth of are treated alike.
+  /// Exact at q = 0; waves that the kernel leaves less than a fiftieth of are treated alike.
   Filter filter(const Response& response) const;
 
   /// Filters for one flux per node. All fluxes and filters together cost little more than the widest filter.

@@ -10,10 +10,9 @@
 #include <map>
 
 #include "lychnite/base/error.h"
-#include "volume/emission.h"
-#include "volume/exchange.h"
 #include "volume/gather.h"
 #include "volume/interruptible.h"
+#include "volume/light_field.h"
 #include "volume/picture.h"
 #include "volume/radiosity.h"
 
@@ -26,27 +25,10 @@ namespace {
 // Share of lines through a mesh along which inside may be undefined: pinholes, slivers of self-intersection.
 constexpr double kUndefined = 0.01;
 constexpr int kMostPasses = 10000;
-constexpr int kFewerReturn = 4;  // one of so many rays is sent from surface to surface before a whole pass
-constexpr int kExchangeCollisions = 2;  // of light that meets another surface, before the solver takes over
 
 double since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
-
-/// What one light of power 1 makes of the scene.
-struct LightField {
-  RayLight light;  ///< traced for
-  int passes = 0;
-  double wholePasses = 0;  ///< of all points
-  /// Two halves, of independent photons, of all bodies: sums over the passes.
-  std::vector<Deposits> deposits[2];
-  Tally tally;
-  std::vector<std::vector<Lanes>> phi[2], phiBack;        ///< solutions, kept as first guesses
-  std::vector<std::vector<Lanes>> again;                  ///< of `multiple`, light from other surfaces
-  std::vector<std::vector<float>> entering;               ///< flux that enters each node, per body
-  std::vector<std::vector<Lanes>> first[2], multiple[2];  ///< flux that leaves at each node, per body
-  Rgb absorbed{0};
-};
 
 void tellStats(const VolumeStats& stats, Image& image) {
   const auto put = [&](const char* key, const std::string& value) {
@@ -93,23 +75,19 @@ struct VolumeSolver::Impl {
   std::vector<Emission> emission;
   std::vector<LightField> fields;
   std::vector<std::unique_ptr<Gather>> gathers;
+  std::vector<std::unique_ptr<LastFlight>> lastFlights;
   VolumeStats stats;
 
   double undefinedOf(const std::shared_ptr<const Mesh>& mesh);
   std::shared_ptr<const Shape> shapeOf(const std::shared_ptr<const Mesh>& mesh);
   bool makeBodies(const Scene& scene, const VolumeSettings& next);
   bool makeOrForgetBodies(const Scene& scene, const VolumeSettings& next, const Progress& progress);
-  int nextOneOf(const LightField& field) const;
-  double wholePasses() const;
-  template <class Work>
-  void orForget(LightField& field, Work work);
-  void trace(LightField& field);
-  void solveBody(LightField& field, size_t body, float each);
-  void solve(LightField& field);
-  void exchangeLight(LightField& field);
-  std::vector<std::vector<Lanes>> lightThatReturns(LightField& field);
+  int passes() const;  ///< that the picture is made of
+  LightSolver lightSolver() { return {world, emission, lastFlights, *exchange, settings, stats}; }
   void tell();
+  NodeEstimate estimate(size_t object, bool firstOnly) const;
   NodeFlux flux(int object, Orders orders) const;
+  void refine(bool last, const Progress& progress);
   void converge(VolumeSolver& solver, const RenderSettings& wish, const Progress& progress);
 };
 
@@ -129,8 +107,7 @@ std::shared_ptr<const Shape> VolumeSolver::Impl::shapeOf(const std::shared_ptr<c
 bool VolumeSolver::Impl::makeBodies(const Scene& scene, const VolumeSettings& next) {
   const bool regrid = !rays || next.cells != settings.cells;
   const bool kept = !regrid && rays->adopt(scene);
-  bool stale = next.collisions != settings.collisions || next.seed != settings.seed ||
-               next.firstOneOf != settings.firstOneOf;
+  bool stale = next.collisions != settings.collisions || next.seed != settings.seed;
   const bool points = regrid || next.photons != settings.photons;
   settings = next;
   if (regrid) shapes.clear();
@@ -160,174 +137,65 @@ bool VolumeSolver::Impl::makeBodies(const Scene& scene, const VolumeSettings& ne
                                              : Emission());
   }
   shapes = std::move(used);
+  lastFlights.resize(world.bodies.size());
+  for (size_t i = 0; i < world.bodies.size(); ++i)
+    if (world.bodies[i] && (points || !kept || lastFlights[i]->eta() != world.bodies[i]->medium.eta))
+      lastFlights[i] = std::make_unique<LastFlight>(world, i);
   if (!kept) exchange = std::make_unique<Exchange>(world);
   return true;
 }
 
-/// The light's next pass takes one of so many points: as many as all passes before.
-int VolumeSolver::Impl::nextOneOf(const LightField& field) const {
-  const int doublings = std::clamp(field.passes - 1, 0, 30);
-  return std::max(1, settings.firstOneOf >> doublings);
-}
-
 /// Of the light that has the fewest.
-double VolumeSolver::Impl::wholePasses() const {
-  double least = fields.empty() ? 0 : fields[0].wholePasses;
-  for (const LightField& field : fields) least = std::min(least, field.wholePasses);
+int VolumeSolver::Impl::passes() const {
+  int least = fields.empty() ? 0 : fields[0].solved;
+  for (const LightField& field : fields) least = std::min(least, field.solved);
   return least;
 }
 
-void VolumeSolver::Impl::trace(LightField& field) {
-  const auto start = std::chrono::steady_clock::now();
-  const int oneOf = nextOneOf(field);
-  Traced traced =
-      traceLight(world, emission, field.light, settings.collisions, settings.seed, field.passes, oneOf);
-  if (field.passes == 0) {
-    field.entering = enteringFlux(world, field.light);
-    for (int half : {0, 1}) field.deposits[half] = std::move(traced.deposits[half]);
-    field.tally = traced.tally;
-  } else {
+/// Of all lights together, all orders or the first only.
+NodeEstimate VolumeSolver::Impl::estimate(size_t object, bool firstOnly) const {
+  const Body& body = *world.bodies[object];
+  const std::vector<Lanes> none(body.shape->surface.nodes().size(), Lanes{0, 0, 0, 0});
+  NodeEstimate result{none, none, none, {}, 1};
+  if (passes() > 0) result.half[0] = result.half[1] = none;
+  for (size_t l = 0; l < fields.size(); ++l) {
+    const Rgb power = rays->lights()[l].power / double(body.size * body.size);
+    const Lanes p{float(power.x), float(power.y), float(power.z), 0};
+    const LightField& field = fields[l];
+    const auto add = [&](const std::vector<Lanes>& from, std::vector<Lanes>& to) {
+      for (size_t n = 0; n < from.size(); ++n) to[n] += p * from[n];
+    };
+    add((firstOnly ? field.beamFirst : field.beam)[object], result.beam);
+    if (!firstOnly) add(field.again[object], result.again);
     for (int half : {0, 1})
-      for (size_t i = 0; i < world.bodies.size(); ++i)
-        if (world.bodies[i]) field.deposits[half][i] += traced.deposits[half][i];
-    field.tally += traced.tally;
+      if (passes() > 0) add((firstOnly ? field.first : field.all)[half][object], result.half[half]);
+    for (size_t n = 0; n < none.size(); ++n) result.entering[n] += p * field.entering[object].flux[n];
   }
-  ++field.passes;
-  field.wholePasses += 1.0 / oneOf;
-  stats.flights += traced.tally.flights;
-  stats.rays += traced.tally.rays;
-  stats.sourceMs += since(start);
-}
-
-/// An interruption leaves nothing half done: the light is to be made anew.
-template <class Work>
-void VolumeSolver::Impl::orForget(LightField& field, Work work) {
-  try {
-    work();
-  } catch (...) {
-    field = {};
-    throw;
-  }
-}
-
-/// Each half for itself; both together after the first pass, which is not judged by its halves.
-void VolumeSolver::Impl::solveBody(LightField& field, size_t body, float each) {
-  const DiffusionSystem& system = world.bodies[body]->system;
-  std::vector<Lanes> Q[2] = {field.deposits[0][body].source, field.deposits[1][body].source};
-  std::vector<Lanes>&phi = field.phi[0][body], &other = field.phi[1][body];
-  for (size_t n = 0; n < Q[0].size(); ++n) {
-    Q[0][n] *= each;
-    Q[1][n] *= each;
-    if (field.passes == 1) Q[0][n] = 0.5f * (Q[0][n] + Q[1][n]);
-  }
-  stats.iterations += system.solve(Q[0], phi, settings.tolerance).iterations;
-  if (field.passes == 1)
-    other = phi;
-  else
-    stats.iterations += system.solve(Q[1], other, settings.tolerance).iterations;
-}
-
-void VolumeSolver::Impl::solve(LightField& field) {
-  const auto start = std::chrono::steady_clock::now();
-  const size_t bodies = world.bodies.size();
-  field.phiBack.resize(bodies);
-  field.absorbed = field.tally.absorbed / field.wholePasses;
-  const auto each = float(2 / field.wholePasses);
-  for (int half : {0, 1}) {
-    field.phi[half].resize(bodies);
-    field.first[half].assign(bodies, {});
-    field.multiple[half].assign(bodies, {});
-  }
-  for (size_t i = 0; i < bodies; ++i) {
-    if (!world.bodies[i]) continue;
-    solveBody(field, i, each);
-    const DiffusionSystem& system = world.bodies[i]->system;
-    for (int half : {0, 1}) {
-      system.exits(field.phi[half][i], field.multiple[half][i]);
-      field.first[half][i] = field.deposits[half][i].first;
-      for (size_t n = 0; n < field.first[half][i].size(); ++n) {
-        field.first[half][i][n] *= each;
-        field.multiple[half][i][n] += field.deposits[half][i].later[n] * each;
-      }
-      field.absorbed += 0.5 * system.absorbed(field.phi[half][i]);
-    }
-  }
-  stats.solveMs += since(start);
-  exchangeLight(field);
-}
-
-/// Light that leaves and meets a surface again, once by tracing and a solve; what would go on the same way is
-/// taken as a geometric series. It is little light: made anew when the passes have doubled.
-void VolumeSolver::Impl::exchangeLight(LightField& field) {
-  if (exchange->empty()) return;
-  const auto start = std::chrono::steady_clock::now();
-  if ((field.passes & (field.passes - 1)) == 0) field.again = lightThatReturns(field);
-  for (auto& half : field.multiple)
-    for (size_t i = 0; i < half.size(); ++i)
-      for (size_t n = 0; n < half[i].size(); ++n) half[i][n] += field.again[i][n];
-  stats.exchangeMs += since(start);
-}
-
-std::vector<std::vector<Lanes>> VolumeSolver::Impl::lightThatReturns(LightField& field) {
-  std::vector<std::vector<Lanes>> leaving = field.multiple[0], result(leaving.size());
-  for (size_t i = 0; i < leaving.size(); ++i)
-    for (size_t n = 0; n < leaving[i].size(); ++n)
-      leaving[i][n] = 0.5f * (field.multiple[0][i][n] + field.multiple[1][i][n] + field.first[0][i][n] +
-                              field.first[1][i][n]);
-  Tally tally;
-  const int collisions = std::min(settings.collisions, kExchangeCollisions);
-  const int oneOf = field.wholePasses < 1 ? kFewerReturn : 1;
-  const std::vector<Deposits> back = exchange->send(world, leaving, collisions, settings.seed, oneOf, tally);
-  for (size_t i = 0; i < back.size(); ++i) {
-    if (!world.bodies[i]) continue;
-    const DiffusionSystem& system = world.bodies[i]->system;
-    std::vector<Lanes>& exits = result[i];
-    stats.iterations +=
-        system.solve(back[i].source, field.phiBack[i], std::max(0.03, settings.tolerance)).iterations;
-    system.exits(field.phiBack[i], exits);
-    Lanes before{0, 0, 0, 0}, after{0, 0, 0, 0};
-    for (const Lanes& l : leaving[i]) before += l;
-    for (size_t n = 0; n < exits.size(); ++n) after += exits[n] += back[i].later[n];
-    Lanes series{1, 1, 1, 1};
-    for (int c = 0; c < 3; ++c)
-      if (before[c] > 0) series[c] = 1 / (1 - std::min(0.9f, after[c] / before[c]));
-    for (Lanes& exit : exits) exit *= series;
-  }
+  const double h = body.shape->grid.side();
+  result.photons = settings.photons * passes() * h * h / body.shape->surface.area();
   return result;
 }
 
 NodeFlux VolumeSolver::Impl::flux(int object, Orders orders) const {
   const Body& body = *world.bodies[size_t(object)];
-  const std::vector<Lanes> none(body.shape->surface.nodes().size(), Lanes{0, 0, 0, 0});
-  NodeEstimate estimate{{none, none}, none};
-  Lanes first{0, 0, 0, 0}, entering{0, 0, 0, 0};
-  for (size_t l = 0; l < fields.size(); ++l) {
-    const Rgb power = rays->lights()[l].power / double(body.size * body.size);
-    const Lanes p{float(power.x), float(power.y), float(power.z), 0};
-    const LightField& field = fields[l];
-    for (size_t n = 0; n < none.size(); ++n) {
-      for (int half : {0, 1}) {
-        const Lanes one = p * field.first[half][size_t(object)][n];
-        Lanes& sum = estimate.half[half][n];
-        if (orders != Orders::kMultiple) sum += one;
-        if (orders != Orders::kFirst) sum += p * field.multiple[half][size_t(object)][n];
-        first += 0.5f * one;
-      }
-      estimate.entering[n] += p * field.entering[size_t(object)][n];
-      entering += p * field.entering[size_t(object)][n];
-    }
-  }
+  const Smoother& smoother = body.shape->smoother;
   const double h = body.shape->grid.side();
-  estimate.photons = settings.photons * wholePasses() * h * h / body.shape->surface.area();
-  const auto response = [&](double q, int c) {
-    const Diffusion& d = body.system.medium().channel[c];
-    const double share = entering[c] > 0 ? double(first[c] / entering[c]) : 0;
-    const double one = share * std::exp(-q / (h * d.sigma_tp)), all = std::max(one, d.response(q / h));
-    return orders == Orders::kAll ? all : orders == Orders::kFirst ? one : all - one;
-  };
-  for (const LightField& field : fields)
-    if (field.passes < 2) return cleanedQuickly(body.shape->smoother, estimate, response);
-  return cleaned(body.shape->smoother, body.shape->surface, estimate, response);
+  NodeFlux first, all;
+  if (orders != Orders::kAll) {
+    const NodeEstimate known = estimate(size_t(object), true);
+    const std::vector<Lanes>& measured = known.half[0].empty() ? known.beam : known.half[0];
+    Lanes sum{0, 0, 0, 0}, entering{0, 0, 0, 0};
+    for (size_t n = 0; n < measured.size(); ++n) sum += measured[n], entering += known.entering[n];
+    const Lanes share = sum / (entering + Lanes{1e-30f, 1e-30f, 1e-30f, 1});
+    first.flux = cleanedFirst(smoother, known, [&](double q, int c) {
+      return double(share[c]) * std::exp(-q / (h * body.system.medium().channel[c].sigma_tp));
+    });
+    if (orders == Orders::kFirst) return first;
+  }
+  all = cleaned(smoother, body.shape->surface, estimate(size_t(object), false),
+                [&](double q, int c) { return body.system.medium().channel[c].response(q / h); });
+  for (size_t n = 0; n < first.flux.size(); ++n) all.flux[n] -= first.flux[n];
+  return all;
 }
 
 /// Sums up the statistics of all lights.
@@ -340,28 +208,32 @@ void VolumeSolver::Impl::tell() {
     stats.samples += body->shape->surface.samples().size();
     stats.memoryBytes += body->shape->memoryBytes() + body->system.memoryBytes();
     stats.memoryBytes += fields.size() * sizeof(Lanes) *
-                         (4 * body->shape->surface.nodes().size() + 3 * body->shape->grid.size());
+                         (11 * body->shape->surface.nodes().size() + 6 * body->shape->grid.size());
   }
   stats.memoryBytes += exchange->memoryBytes();
   Rgb entered(0), left(0), absorbed(0), unscattered(0), lost(0);
-  stats.passes = 0;
+  stats.passes = passes();
   for (size_t l = 0; l < fields.size(); ++l) {
     const LightField& field = fields[l];
     const Rgb power = rays->lights()[l].power;
-    const Rgb each = power / field.wholePasses;
-    stats.passes = l == 0 ? field.passes : std::min(stats.passes, field.passes);
-    entered += field.tally.entered * each;
-    left += field.tally.left * each;
-    unscattered += field.tally.unscattered * each;
-    lost += field.tally.lost * each;
+    const Tally told = field.told();
+    const Rgb each = power / field.passesTold();
+    entered += told.entered * each;
+    left += told.left * each;
+    unscattered += told.unscattered * each;
+    lost += told.lost * each;
     absorbed += field.absorbed * power;
-    for (const auto& phi : field.phi)
+    const auto tellExits = [&](const LightField::Fluxes& phi, double share) {
       for (size_t i = 0; i < phi.size(); ++i) {
         if (!world.bodies[i]) continue;
         std::vector<Lanes> exits;
         world.bodies[i]->system.exits(phi[i], exits);
-        for (const Lanes& e : exits) left += 0.5 * Rgb(e[0], e[1], e[2]) * power;
+        for (const Lanes& e : exits) left += share * Rgb(e[0], e[1], e[2]) * power;
       }
+    };
+    if (field.solved == 0) tellExits(field.phiBeam, 1);
+    if (field.solved > 0)
+      for (const auto& phi : field.phi) tellExits(phi, 0.5);
   }
   entered = glm::max(entered, Rgb(1e-300));
   stats.left = left / entered;
@@ -378,6 +250,17 @@ bool VolumeSolver::Impl::makeOrForgetBodies(const Scene& scene, const VolumeSett
     return makeBodies(scene, next);
   } catch (...) {
     rays.reset();
+    throw;
+  }
+}
+
+/// Does `work` on a light; after an interruption nothing half done is left of it.
+template <class Work>
+void orForget(LightField& field, Work work) {
+  try {
+    work();
+  } catch (...) {
+    field = {};
     throw;
   }
 }
@@ -406,7 +289,6 @@ void VolumeSolver::update(const Scene& scene, const VolumeSettings& settings, co
   requireRange(settings.collisions, 1, 64, "collisions");
   requireRange(settings.photons, 1024, 1 << 24, "photons");
   requireRange(settings.tolerance, 1e-6, 0.5, "tolerance");
-  requireRange(settings.firstOneOf, 1, 256, "firstOneOf");
   Impl& all = *impl_;
   all.stats = {};
   const auto start = std::chrono::steady_clock::now();
@@ -415,29 +297,33 @@ void VolumeSolver::update(const Scene& scene, const VolumeSettings& settings, co
   const auto& lights = all.rays->lights();
   all.fields.resize(lights.size());
   if (stale)
-    for (LightField& field : all.fields) field.passes = 0;
+    for (LightField& field : all.fields) field.entering.clear();
   for (size_t l = 0; l < lights.size(); ++l) {
     LightField& field = all.fields[l];
     const Interruptible inside(progress, {"volume: light", double(l) / double(lights.size()), ""});
-    if (field.passes > 0 && sameRays(field.light, lights[l])) continue;
+    const bool made = !field.entering.empty();
+    if (made && sameRays(field.light, lights[l])) continue;
     field.light = lights[l];
-    field.passes = 0;
-    field.wholePasses = 0;
-    all.trace(field);
-    all.orForget(field, [&] { all.solve(field); });
+    field.light.power = Rgb(1);
+    orForget(field, [&] { all.lightSolver().beam(field); });
   }
   all.tell();
 }
 
-void VolumeSolver::refine(const Progress& progress) {
-  impl_->stats.sourceMs = impl_->stats.solveMs = impl_->stats.exchangeMs = 0;
-  impl_->stats.iterations = 0;
-  for (LightField& field : impl_->fields) {
+/// Passes that are not the last of several need not be solved for.
+void VolumeSolver::Impl::refine(bool last, const Progress& progress) {
+  stats.sourceMs = stats.solveMs = stats.exchangeMs = 0;
+  stats.iterations = 0;
+  for (LightField& field : fields) {
     const Interruptible inside(progress, {"volume: light", 0, ""});
-    impl_->trace(field);
-    impl_->orForget(field, [&] { impl_->solve(field); });
+    lightSolver().trace(field);
+    if (last) orForget(field, [&] { lightSolver().solve(field); });
   }
-  impl_->tell();
+  if (last) tell();
+}
+
+void VolumeSolver::refine(const Progress& progress) {
+  impl_->refine(true, progress);
 }
 
 std::vector<glm::vec3> VolumeSolver::vertexRadiosity(int object, Orders orders) const {
@@ -447,7 +333,7 @@ std::vector<glm::vec3> VolumeSolver::vertexRadiosity(int object, Orders orders) 
 }
 
 double VolumeSolver::noise() const {
-  if (impl_->stats.passes < 2) return 0;
+  if (impl_->stats.passes < 1) return 0;
   double squares = 0, sum = 0, area = 0;
   for (size_t i = 0; i < impl_->world.bodies.size(); ++i) {
     if (!impl_->world.bodies[i]) continue;
@@ -489,15 +375,17 @@ void VolumeSolver::Impl::converge(VolumeSolver& solver, const RenderSettings& wi
   const auto start = std::chrono::steady_clock::now();
   const bool openEnded = wish.noise > 0 || wish.timeLimit > 0;
   const int most = openEnded ? kMostPasses : wish.passes;
-  int look = 2;  // the noise is a part of a pass's work to tell
-  while (stats.passes > 0 && stats.passes < most) {
-    if (wish.timeLimit > 0 && since(start) >= 1000 * wish.timeLimit) return;
-    if (wish.noise > 0 && stats.passes >= look) {
+  int look = 1;  // the noise is a part of a pass's work to tell
+  for (int pass = 1; !fields.empty() && pass <= most; ++pass) {
+    const bool timeIsUp = wish.timeLimit > 0 && since(start) >= 1000 * wish.timeLimit;
+    const bool last = pass == most || timeIsUp || (wish.noise > 0 && pass == look);
+    refine(last, progress);
+    if (timeIsUp) return;
+    if (wish.noise > 0 && last) {
       const double ratio = solver.noise() / wish.noise;
       if (ratio <= 1) return;
-      look = stats.passes + int(std::clamp(stats.passes * (ratio * ratio - 1), 1.0, double(stats.passes)));
+      look = pass + int(std::clamp(pass * (ratio * ratio - 1), 1.0, double(pass)));
     }
-    solver.refine(progress);
   }
 }
 
@@ -510,7 +398,7 @@ Image VolumeSolver::render(const Scene& scene, const RenderSettings& settings, c
     impl_->converge(*this, settings, progress);
     Image image = picture(settings, progress);
     tellStats(impl_->stats, image);
-    if (impl_->stats.passes > 1) image.metadata["noise"] = fmt::format("{:.6g}", noise());
+    if (impl_->stats.passes > 0) image.metadata["noise"] = fmt::format("{:.6g}", noise());
     image.metadata["seconds"] = fmt::format("{:.3f}", since(start) / 1000);
     return image;
   });

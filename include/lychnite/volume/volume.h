@@ -14,12 +14,9 @@ namespace lychnite {
 
 /// How the light inside is computed (docs/volume.md).
 struct VolumeSettings {
-  int cells = 64;         ///< along each object's longest side, 8..192
-  int collisions = 6;     ///< of each photon, traced before the diffusion equation takes over, 1..64
-  int photons = 1 << 17;  ///< starting points on each object's surface, lit or not, in one pass, 1024..2^24
-  /// The first pass takes one of so many of the points, 1..256, for a picture at once; later ones double that
-  /// until they take all.
-  int firstOneOf = 1;
+  int cells = 64;           ///< along each object's longest side, 8..192
+  int collisions = 6;       ///< of each photon, traced before the diffusion equation takes over, 1..64
+  int photons = 1 << 17;    ///< starting points on each object's surface, lit or not, in one pass, 1024..2^24
   double tolerance = 0.01;  ///< relative residual of the diffusion solve, in (0, 1)
   uint64_t seed = 1;
   bool operator==(const VolumeSettings&) const = default;
@@ -37,11 +34,11 @@ struct VolumeStats {
   Rgb left{0}, absorbed{0}, unscattered{0}, lost{0};
 };
 
-/// The light inside closed objects: photons for the first collisions, the diffusion equation on a grid of
-/// cells for the rest. Keeps what stays valid from scene to scene: the geometry while shapes stay, traced
-/// light while lights, materials and sizes stay, solutions as first guesses; lights' intensities and colours
-/// cost nothing. Deterministic: same calls, same result, on any number of threads. Not for several threads at
-/// once. Work runs on the calling TBB arena.
+/// The light inside closed objects: first collisions and the diffusion equation on a grid of cells for a
+/// picture at once, photons for what that is wrong by. Keeps what stays valid from scene to scene: the
+/// geometry while shapes stay, traced light while lights, materials and sizes stay, solutions as first
+/// guesses; lights' intensities and colours cost nothing. Deterministic: same calls, same result, on any
+/// number of threads. Not for several threads at once. Work runs on the calling TBB arena.
 class VolumeSolver {
  public:
   VolumeSolver();
@@ -53,12 +50,12 @@ class VolumeSolver {
   /// turned inside out in part). Cheap for meshes seen before.
   std::string obstacle(const Scene& scene);
 
-  /// Solves for a scene whose obstacle() is "". Throws Error for what validate() refuses or out-of-range
-  /// settings, Interrupted.
+  /// Solves for a scene whose obstacle() is "": a picture without photons and noise, of what is new; what is
+  /// not keeps its photons. Throws Error for what validate() refuses or out-of-range settings, Interrupted
+  /// (what was not done is done by the next update()).
   void update(const Scene& scene, const VolumeSettings& settings, const Progress& progress = {});
 
-  /// One more pass of photons over all lights: the noise of the traced part falls with the root of the
-  /// passes.
+  /// One more pass of photons over all lights: their noise falls with the root of the passes.
   void refine(const Progress& progress = {});
 
   /// Which orders of scattering a radiosity holds.
@@ -68,12 +65,12 @@ class VolumeSolver {
   std::vector<glm::vec3> vertexRadiosity(int object, Orders orders) const;
 
   /// Noise of the radiosity on all of the surface, as far as it is the photons': standard error over mean,
-  /// told by two halves of the photons. 0 before the second pass.
+  /// told by two halves of the photons. 0 without photons.
   double noise() const;
 
   /// The picture of the last update: settings' size, components, aovs, seed; conventions of
   /// renderReference(). `multiple` is order two and up; "radiosity" all orders; "stderr" that of `multiple`,
-  /// 0 before the second pass.
+  /// 0 without photons.
   Image picture(const RenderSettings& settings, const Progress& progress = {}) const;
 
   /// update(), refine() and picture(), on settings.threads; with the statistics as metadata "volume.*". As

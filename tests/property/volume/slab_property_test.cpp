@@ -78,6 +78,7 @@ TEST_P(SlabProperty, ReflectsAndTransmitsAsTransportSays) {
   scene.lights.push_back(ParallelLight{.azimuth = 0, .elevation = 0, .irradiance = Rgb(1)});
   VolumeSolver solver;
   solver.update(scene, {.photons = 1 << 16});
+  solver.refine();
   const Shares is = middleOf(solver, *scene.objects[0].mesh);
 
   const SlabResult truth = simulateSlab({.medium = medium, .thickness = thickness, .photons = 150'000});

@@ -30,6 +30,25 @@ TEST(Diffusion, LayerFollowsItsFormulas) {
   EXPECT_FALSE(std::isnan(d.leaving(1, 1e5)));
 }
 
+TEST(Diffusion, BeamsThroughTheLayerAreIntegralsOfItsShares) {
+  const Diffusion d(2.0, 0.3, 1.3);
+  for (const double a : {0.5, d.k, 2.5, 40.0})
+    for (const double depth : {0.05, 1.0, 8.0})
+      for (const double end : {0.4 * depth, depth}) {
+        constexpr int n = 20000;
+        double leaving = 0, staying = 0;
+        for (int i = 0; i < n; ++i) {
+          const double z = end * (i + 0.5) / n, density = a * std::exp(-a * z) * end / n;
+          leaving += density * d.leaving(z, depth);
+          staying += density * d.staying(z, depth);
+        }
+        EXPECT_NEAR(d.beamLeaving(a, end, depth), leaving, 2e-5);
+        EXPECT_NEAR(d.beamStaying(a, end, depth), staying, 2e-5);
+      }
+  EXPECT_FALSE(std::isnan(d.beamLeaving(3, 1e5, 1e5)));
+  EXPECT_FALSE(std::isnan(d.beamStaying(3, 1e5, 1e5)));
+}
+
 TEST(Diffusion, NothingIsLostWithoutAbsorption) {
   const Diffusion d(5.0, 0.0, 1.5);
   for (const double z : {0.0, 0.2, 1.0}) EXPECT_NEAR(d.leaving(z, 1.5) + d.staying(z, 1.5), 1, 1e-5);

@@ -2,6 +2,7 @@
 #include "volume/interruptible.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include "lychnite/base/error.h"
 #include "lychnite/mesh/builtin.h"
@@ -19,6 +20,11 @@ Scene stoneScene() {
   scene.lights.push_back(ParallelLight{.azimuth = -40, .elevation = 50});
   return scene;
 }
+
+/// So that all work asks on this thread, the same number of times each time.
+struct OneThread {
+  tbb::global_control control{tbb::global_control::max_allowed_parallelism, 1};
+};
 
 const VolumeSettings kQuick{.cells = 12, .photons = 1 << 12};
 
@@ -45,6 +51,7 @@ TEST(Interruptible, AsksOnlyWhileItLives) {
 }
 
 TEST(Interruptible, AnUpdateThatWasStoppedIsMadeWholeByTheNext) {
+  const OneThread one;
   const Scene scene = stoneScene();
   VolumeSolver whole;
   int steps = 0;
@@ -63,6 +70,7 @@ TEST(Interruptible, AnUpdateThatWasStoppedIsMadeWholeByTheNext) {
 }
 
 TEST(Interruptible, APassThatWasStoppedLeavesAPicture) {
+  const OneThread one;
   const Scene scene = stoneScene();
   VolumeSolver whole;
   whole.update(scene, kQuick);

@@ -1,0 +1,146 @@
+#include "volume/light_field.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace lychnite::volume {
+
+namespace {
+
+constexpr int kFewerReturn =
+    4;  // one of so many rays is sent from surface to surface before there are photons
+constexpr int kExchangeCollisions = 2;  // of light that meets another surface, before the solver takes over
+
+// Photons tell what the beams are wrong by, which is little, and begin at the beams' solution.
+constexpr double kFiner = 0.2;
+
+double since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+void LightSolver::beam(LightField& field) {
+  const auto start = std::chrono::steady_clock::now();
+  const size_t bodies = world_.bodies.size();
+  field.passes = field.solved = field.exchangedAt = 0;
+  field.entering = enteringFlux(world_, field.light);
+  field.beamed = beamLight(world_, field.light, field.entering);
+  stats_.rays += field.beamed.tally.rays;
+  stats_.sourceMs += since(start);
+  const auto solving = std::chrono::steady_clock::now();
+  field.absorbed = field.beamed.tally.absorbed;
+  for (auto& phi : field.phi) phi.clear();
+  field.phiBeam.resize(bodies);
+  field.beam.assign(bodies, {});
+  field.beamFirst.assign(bodies, {});
+  for (size_t i = 0; i < bodies; ++i) {
+    if (!world_.bodies[i]) continue;
+    const DiffusionSystem& system = world_.bodies[i]->system;
+    Deposits& deposits = field.beamed.deposits[i];
+    stats_.iterations += system.solve(deposits.source, field.phiBeam[i], settings_.tolerance).iterations;
+    system.exits(field.phiBeam[i], field.beam[i]);
+    lastFlights_[i]->gather(*world_.bodies[i], field.phiBeam[i], deposits.source, field.beam[i]);
+    field.absorbed += system.absorbed(field.phiBeam[i]);
+    for (size_t n = 0; n < field.beam[i].size(); ++n) field.beam[i][n] += deposits.later[n];
+    field.beamFirst[i] = std::move(deposits.first);
+    deposits = {};
+  }
+  stats_.solveMs += since(solving);
+  exchangeLight(field);
+}
+
+void LightSolver::trace(LightField& field) {
+  const auto start = std::chrono::steady_clock::now();
+  Traced traced =
+      traceLight(world_, emission_, field.light, settings_.collisions, settings_.seed, field.passes);
+  if (field.passes == 0) {
+    for (int half : {0, 1}) field.deposits[half] = std::move(traced.deposits[half]);
+    field.tally = traced.tally;
+  } else {
+    for (int half : {0, 1})
+      for (size_t i = 0; i < world_.bodies.size(); ++i)
+        if (world_.bodies[i]) field.deposits[half][i] += traced.deposits[half][i];
+    field.tally += traced.tally;
+  }
+  ++field.passes;
+  stats_.flights += traced.tally.flights;
+  stats_.rays += traced.tally.rays;
+  stats_.sourceMs += since(start);
+}
+
+/// Each half of the photons for itself.
+void LightSolver::solve(LightField& field) {
+  const auto start = std::chrono::steady_clock::now();
+  const size_t bodies = world_.bodies.size();
+  field.absorbed = field.tally.absorbed / double(field.passes);
+  const float each = 2 / float(field.passes);
+  for (int half : {0, 1}) {
+    field.phi[half].resize(bodies);
+    field.all[half].assign(bodies, {});
+    field.first[half].assign(bodies, {});
+    for (size_t i = 0; i < bodies; ++i) {
+      if (!world_.bodies[i]) continue;
+      const DiffusionSystem& system = world_.bodies[i]->system;
+      const Deposits& deposits = field.deposits[half][i];
+      std::vector<Lanes> Q = deposits.source;
+      for (Lanes& q : Q) q *= each;
+      if (field.phi[half][i].empty()) field.phi[half][i] = field.phiBeam[i];
+      stats_.iterations += system.solve(Q, field.phi[half][i], kFiner * settings_.tolerance).iterations;
+      field.absorbed += 0.5 * system.absorbed(field.phi[half][i]);
+      std::vector<Lanes>&all = field.all[half][i], &first = field.first[half][i] = deposits.first;
+      system.exits(field.phi[half][i], all);
+      lastFlights_[i]->gather(*world_.bodies[i], field.phi[half][i], Q, all);
+      for (size_t n = 0; n < first.size(); ++n) {
+        first[n] *= each;
+        all[n] += first[n] + deposits.later[n] * each;
+      }
+    }
+  }
+  field.solved = field.passes;
+  stats_.solveMs += since(start);
+  exchangeLight(field);
+}
+
+/// Light that leaves and meets a surface again, once by tracing and a solve; what would go on the same way is
+/// taken as a geometric series. It is little light: made anew when the passes have doubled.
+void LightSolver::exchangeLight(LightField& field) {
+  field.again.resize(world_.bodies.size());
+  if (exchange_.empty() || (field.passes > 0 && field.passes < 2 * field.exchangedAt)) return;
+  const auto start = std::chrono::steady_clock::now();
+  field.again = lightThatReturns(field);
+  field.exchangedAt = field.passes;
+  stats_.exchangeMs += since(start);
+}
+
+LightField::Fluxes LightSolver::lightThatReturns(LightField& field) {
+  LightField::Fluxes leaving = field.beam, result(leaving.size());
+  if (field.passes > 0)
+    for (size_t i = 0; i < leaving.size(); ++i)
+      for (size_t n = 0; n < leaving[i].size(); ++n)
+        leaving[i][n] = 0.5f * (field.all[0][i][n] + field.all[1][i][n]);
+  Tally tally;
+  const int collisions = std::min(settings_.collisions, kExchangeCollisions);
+  const int oneOf = field.passes == 0 ? kFewerReturn : 1;
+  const std::vector<Deposits> back =
+      exchange_.send(world_, leaving, collisions, settings_.seed, oneOf, tally);
+  field.phiBack.resize(back.size());
+  for (size_t i = 0; i < back.size(); ++i) {
+    if (!world_.bodies[i]) continue;
+    const DiffusionSystem& system = world_.bodies[i]->system;
+    std::vector<Lanes>& exits = result[i];
+    stats_.iterations +=
+        system.solve(back[i].source, field.phiBack[i], std::max(0.03, settings_.tolerance)).iterations;
+    system.exits(field.phiBack[i], exits);
+    Lanes before{0, 0, 0, 0}, after{0, 0, 0, 0};
+    for (const Lanes& l : leaving[i]) before += l;
+    for (size_t n = 0; n < exits.size(); ++n) after += exits[n] += back[i].later[n];
+    Lanes series{1, 1, 1, 1};
+    for (int c = 0; c < 3; ++c)
+      if (before[c] > 0) series[c] = 1 / (1 - std::min(0.9f, after[c] / before[c]));
+    for (Lanes& exit : exits) exit *= series;
+  }
+  return result;
+}
+
+}  // namespace lychnite::volume

@@ -1,0 +1,64 @@
+#pragma once
+
+#include "lychnite/volume/volume.h"
+#include "volume/beam.h"
+#include "volume/exchange.h"
+#include "volume/last_flight.h"
+
+namespace lychnite::volume {
+
+/// What one light of power 1 makes of the scene. Fluxes that leave are per body and node.
+struct LightField {
+  using Fluxes = std::vector<std::vector<Lanes>>;
+  RayLight light;  ///< made for
+  // By first collisions alone, without noise.
+  std::vector<Entering> entering;  ///< empty before anything is made
+  Beamed beamed;
+  Fluxes phiBeam;          ///< solution, kept as first guess
+  Fluxes beam, beamFirst;  ///< all orders, first order
+  // By photons.
+  int passes = 0, solved = 0;         ///< traced, and solved for
+  std::vector<Deposits> deposits[2];  ///< by two halves, of independent photons: sums over the passes
+  Tally tally;
+  Fluxes phi[2];
+  Fluxes all[2], first[2];
+  // Light that leaves and enters again.
+  Fluxes phiBack, again;
+  int exchangedAt = 0;  ///< passes
+  Rgb absorbed{0};
+
+  /// Of all that the light did: by photons as soon as there are any, per pass.
+  const Tally& told() const { return solved > 0 ? tally : beamed.tally; }
+  double passesTold() const { return std::max(1, solved); }
+};
+
+/// Brings a light's field on: first collisions, photons, diffusion, what enters again.
+class LightSolver {
+ public:
+  LightSolver(const World& world, const std::vector<Emission>& emission,
+              const std::vector<std::unique_ptr<LastFlight>>& lastFlights, const Exchange& exchange,
+              const VolumeSettings& settings, VolumeStats& stats)
+      : world_(world),
+        emission_(emission),
+        lastFlights_(lastFlights),
+        exchange_(exchange),
+        settings_(settings),
+        stats_(stats) {}
+
+  void beam(LightField& field);   ///< begins anew, without photons
+  void trace(LightField& field);  ///< one more pass of photons
+  void solve(LightField& field);  ///< for all photons so far
+
+ private:
+  void exchangeLight(LightField& field);
+  LightField::Fluxes lightThatReturns(LightField& field);
+
+  const World& world_;
+  const std::vector<Emission>& emission_;
+  const std::vector<std::unique_ptr<LastFlight>>& lastFlights_;
+  const Exchange& exchange_;
+  const VolumeSettings& settings_;
+  VolumeStats& stats_;
+};
+
+}  // namespace lychnite::volume
