@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <ctime>
@@ -29,6 +30,7 @@ constexpr int kFramesAfterInput = 3;       // a control may need some to settle
 constexpr double kPlayedFrame = 1 / 60.0;  // seconds that a frame of a script stands for
 constexpr double kSlowSeconds = 0.1;
 constexpr size_t kKeptFrames = 120;
+constexpr size_t kMostTimed = 100000;  // frames in motion, for the log
 
 /// How long the way to the first picture takes, step by step, on the clock and on the processor.
 class Stopwatch {
@@ -92,6 +94,7 @@ class Viewer {
   void warmUp();
   void start();
   void makePlayer();
+  bool moving() const;
   bool quick() const;
   bool slow() const;
   void frame(const std::vector<InputEvent>& events);
@@ -101,6 +104,7 @@ class Viewer {
   void takeMessages();
   void draw(PanelContext& context, const Layout& layout);
   void finish(Clock::time_point start);
+  void tellFrames() const;
   void screenshot(const fs::path& path);
   bool atRest() const;
   Preferences loadPreferences();
@@ -120,6 +124,7 @@ class Viewer {
   Hands hands_;
   std::unique_ptr<Player> player_;
   std::vector<Shown> shown_;
+  std::vector<float> movingMs_;
   std::string title_;
   double seconds_ = 0, frameSeconds_ = 1 / 60.0, lastFrame_ = 0;
   int framesLeft_ = kFramesAfterInput;
@@ -224,6 +229,11 @@ bool Viewer::atRest() const {
          !swatchesLeft_ && !controls_.animation.running() && !profiles_.busy();
 }
 
+/// A hand or an animation is on the picture.
+bool Viewer::moving() const {
+  return hands_.holding() || ui_.busy() || controls_.animation.running();
+}
+
 /// The window changes with every frame.
 bool Viewer::quick() const {
   return framesLeft_ > 0 || !view_.settled() || swatchesLeft_ || controls_.animation.running() ||
@@ -262,6 +272,17 @@ void Viewer::run() {
     if (window_.visible()) frame(events);
   }
   takeMessages();  // the last ones reach the log
+  tellFrames();
+}
+
+void Viewer::tellFrames() const {
+  if (movingMs_.empty()) return;
+  std::vector<float> sorted = movingMs_;
+  std::sort(sorted.begin(), sorted.end());
+  const auto below = [&](double share) { return sorted[size_t(share * double(sorted.size() - 1))]; };
+  logTo(options_.log, LogLevel::kDebug,
+        fmt::format("{} frames in motion: {:.1f} ms in the middle, nine of ten below {:.1f} ms",
+                    sorted.size(), below(0.5), below(0.9)));
 }
 
 void Viewer::frame(const std::vector<InputEvent>& events) {
@@ -272,7 +293,7 @@ void Viewer::frame(const std::vector<InputEvent>& events) {
   handle(events, context, layout.picture);
   animate();
   draw(context, layout);
-  if (!hands_.holding() && !ui_.busy() && !controls_.animation.running()) session_.commit();
+  if (!moving()) session_.commit();
   finish(start);
 }
 
@@ -327,7 +348,7 @@ void Viewer::draw(PanelContext& context, const Layout& layout) {
   if (!session_.empty() && area.x > 0 && area.y > 0)
     view_.update({.state = &session_.state(),
                   .pixels = area,
-                  .moving = hands_.holding() || ui_.busy() || controls_.animation.running(),
+                  .moving = moving(),
                   .seconds = seconds_,
                   .file = session_.picture(),
                   .judge = controls_.inspects});
@@ -347,6 +368,7 @@ void Viewer::finish(Clock::time_point start) {
     stopwatch_.tell(options_.log, LogLevel::kInfo, "first picture");
   }
   if (view_.drew()) controls_.frameMs.push_back(float(milliseconds));
+  if (view_.drew() && moving() && movingMs_.size() < kMostTimed) movingMs_.push_back(float(milliseconds));
   if (controls_.frameMs.size() > kKeptFrames) controls_.frameMs.erase(controls_.frameMs.begin());
   const std::string title = session_.documentName() + " - Lychnite";
   if (title != title_) window_.setTitle(title_ = title);
