@@ -15,10 +15,13 @@ using transport::Medium;
 
 constexpr size_t kBlock = 512;
 constexpr float kNegligible = 8;  // mean free paths after which the rest of a beam collides where it is
-constexpr float kLeastMirrored = 0.01f;  // of a beam, that is followed further
+constexpr float kLeastMirrored = 0.02f;  // of a beam, that is followed further
 constexpr int kMostMirrorings = 16;
 constexpr float kLeastColliding = 1e-6f;
-constexpr float kLongest = 0.6f;  // piece of a beam, in voxels
+constexpr float kSeenThrough = 0.25f;  // a cell of so many mean free paths
+constexpr size_t kTogether = 4;        // nodes that share a beam there
+constexpr float kAlike = 0.97f;        // least cosine between their normals
+constexpr float kLongest = 0.6f;       // piece of a beam, in voxels
 constexpr double kStep[3] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};  // Roberts 2018
 
 float least(const glm::vec3& v) {
@@ -139,7 +142,7 @@ void Beamer::march(Beam& beam, float length) {
       const float side = d > 0 ? std::floor(at[axis] + 1e-3f) + 1 : std::ceil(at[axis] - 1e-3f) - 1;
       step = std::fmin(step, h * (side - at[axis]) / d);
     }
-    if (step > kLongest * h) step *= 0.5f;
+    if (step > kLongest * h && !(grid.clear(beam.position + 0.5f * step * beam.direction) > 0)) step *= 0.5f;
     const glm::vec3 pass = glm::exp(-sigma_ * step);
     collide(beam.position + 0.5f * step * beam.direction, beam.flux * (1.0f - pass));
     beam.flux *= pass;
@@ -242,6 +245,11 @@ void Beamer::lookFrom(const RayHit& from, const glm::vec3& direction, float flux
         flux * medium.sigma_s * passed / density * glm::exp(-medium.sigma_t * hit.distance) * T);
 }
 
+/// Whether nodes that follow each other can share a beam.
+bool alike(const Surface::Node& a, const Surface::Node& b) {
+  return a.cell == b.cell && glm::dot(a.normal, b.normal) > kAlike;
+}
+
 }  // namespace
 
 Beamed beamLight(const World& world, const RayLight& light, const std::vector<Entering>& entering) {
@@ -254,17 +262,29 @@ Beamed beamLight(const World& world, const RayLight& light, const std::vector<En
     const size_t blocks = (in.flux.size() + kBlock - 1) / kBlock;
     std::vector<std::vector<Tracer::Record>> records(blocks);
     std::vector<Tally> tallies(blocks);
+    const auto& nodes = body.shape->surface.nodes();
+    // Where a beam goes through many cells, few beams will do.
+    const float perCell = least(body.reduced.sigma_t) * body.size * float(body.shape->grid.side());
+    const size_t most = perCell < kSeenThrough ? kTogether : 1;
     tbb::parallel_for(size_t(0), blocks, [&](size_t b) {
       Beamer beamer(world, records[b]);
-      for (size_t n = b * kBlock; n < std::min(in.flux.size(), (b + 1) * kBlock); ++n) {
-        if (!(in.flux[n] > 0)) continue;
+      const size_t end = std::min(in.flux.size(), (b + 1) * kBlock);
+      float flux = 0;
+      size_t together = 0, beams = 0;
+      for (size_t i = b * kBlock; i < end; ++i) {
+        if (!(in.flux[i] > 0)) continue;
+        flux += in.flux[i];
+        if (++together < most && i + 1 < end && in.flux[i + 1] > 0 && alike(nodes[i], nodes[i + 1])) continue;
+        // Each of them in turn stands for all, so that no side of the voxels is preferred.
+        const size_t n = i - beams++ % together;
         const RayHit from = middleOf(world, object, in.brightest[n]);
         const glm::vec3 arriving = -glm::vec3(light.seenFrom(from.position).direction);
         const float cosI = std::fmin(1.0f, -glm::dot(arriving, from.normal));
         const float cosT = transport::fresnel(cosI, body.medium.eta).cosT;
         beamer.follow(from, body.shape->surface.samples()[in.brightest[n]],
-                      transport::refracted(arriving, from.normal, body.medium.eta, cosI, cosT), in.flux[n],
-                      n);
+                      transport::refracted(arriving, from.normal, body.medium.eta, cosI, cosT), flux, n);
+        flux = 0;
+        together = 0;
       }
       tallies[b] = beamer.tally();
     });
