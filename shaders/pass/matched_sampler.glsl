@@ -13,7 +13,6 @@ uniform float centreDepth;
 uniform float boundRadius;    // of the object's bounding sphere, whose centre the axis passes
 uniform float spiralScale;    // half of the samples lie within this distance
 uniform float reach;          // beyond it the profile is dark in every channel
-uniform sampler2D azimuths;   // cosine and sine for turn (u) and eccentricity (v), see technique/multiple/spiral.h
 uniform int sampleCount;      // cells of the pattern where the surface faces the light
 uniform float mostRefinement;  // doublings of their number, at most, where the surface slants
 
@@ -154,10 +153,7 @@ struct Cell {
 
 Cell cellOf(Ground g, Spiral s, float cells, int index) {
   float i = float(index);
-  vec2 table = vec2(textureSize(azimuths, 0));
-  float row = (s.e / 0.9 * (table.y - 1.0) + 0.5) / table.y;
-  float turn = fract(0.6180339887498949 * i - s.inwardsTurn);
-  vec2 phi = textureLod(azimuths, vec2((turn * (table.x - 1.0) + 0.5) / table.x, row), 0.0).xy;
+  vec3 phi = denserAhead(6.283185307179586 * fract(0.6180339887498949 * i - s.inwardsTurn), s.e);
   float edge = min(length(vec2(distanceToCircle(s.e0, s.rc, phi.x, phi.y), s.d)), s.farthest);
   float share = radialShare(edge, spiralScale) - s.g0;
   vec3 at = vec3(i, i + 0.5, i + 1.0) * (share / cells) + s.g0;
@@ -168,7 +164,7 @@ Cell cellOf(Ground g, Spiral s, float cells, int index) {
   c.a = index == 0 ? 0.0 : sqrt(max(0.0, ra * ra - s.d * s.d));
   c.q = sqrt(max(1e-16, rq * rq - s.d * s.d));
   c.b = sqrt(max(1e-16, rb * rb - s.d * s.d));
-  c.area = 3.141592653589793 * (c.b * c.b - c.a * c.a) / (1.0 + s.e * phi.x);
+  c.area = 3.141592653589793 * (c.b * c.b - c.a * c.a) * phi.z;
   c.uv = g.uv + c.q * (phi.x * s.inwards + phi.y * vec2(-s.inwards.y, s.inwards.x)) / g.width;
   return c;
 }

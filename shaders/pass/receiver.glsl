@@ -33,34 +33,30 @@ Receiver receiverAt(vec3 position, vec3 normal, float weight) {
 }
 
 // One receiver for `count` samples, if they are one smooth piece: normals within about 25 degrees, points near one plane in
-// terms of their own spread; and of one exit lobe, or near together.
+// terms of their own spread; and of one exit lobe, or near together. Beyond `count` the last sample is repeated.
 bool together(vec3 positions[4], vec3 normals[4], int count, out Receiver receiver) {
   vec3 centre = vec3(0.0);
   vec3 normal = vec3(0.0);
-  for (int i = 0; i < count; ++i) {
-    centre += positions[i];
-    normal += normals[i];
+  for (int i = 0; i < 4; ++i) {
+    float w = i < count ? 1.0 / float(count) : 0.0;
+    centre += w * positions[i];
+    normal += w * normals[i];
   }
-  centre /= float(count);
-  float agreement = length(normal) / float(count);
+  float agreement = length(normal);
   normal = normalize(normal);
   // The diagonals of four.
-  int last = count - 1;
-  float spread = max(distance(positions[0], positions[last]), distance(positions[1], positions[min(2, last)]));
+  float spread = max(distance(positions[0], positions[3]), distance(positions[1], positions[2]));
   receiver = receiverAt(centre, normal, 0.25 * float(count));
   float off = 0.0;
-  float least = 1.0;
-  float most = 0.0;
+  vec4 cosO;
   for (int i = 0; i < 4; ++i) {
-    int j = min(i, last);
-    off = max(off, abs(dot(positions[j] - centre, normal)));
-    receiver.cosO[i] = dot(normals[j], normalize(cameraPosition - positions[j]));
-    least = min(least, receiver.cosO[i]);
-    most = max(most, receiver.cosO[i]);
+    off = max(off, abs(dot(positions[i] - centre, normal)));
+    cosO[i] = dot(normals[i], normalize(cameraPosition - positions[i]));
   }
+  float least = min(min(cosO.x, cosO.y), min(cosO.z, cosO.w));
+  float most = max(max(cosO.x, cosO.y), max(cosO.z, cosO.w));
   bool oneLobe = count == 4 && most - least < kLobeSpread * least * least;
-  receiver.cosO = oneLobe ? vec4(dot(normal, receiver.view)) : receiver.cosO;
-  receiver.cosO = clamp(receiver.cosO, 0.0, 1.0);
+  if (!oneLobe) receiver.cosO = clamp(cosO, 0.0, 1.0);
   return agreement > 0.975 && off < 0.25 * spread && (oneLobe || spread < shareWithin);
 }
 
@@ -73,8 +69,14 @@ int loadReceivers(ivec2 first, out Receiver receivers[4]) {
     ivec2 texel = first + ivec2(i & 1, i >> 1);
     vec4 g = texelFetch(geometry, texel, 0);
     if (g.w != objectNumber) continue;
-    positions[count] = cameraPosition + rayThrough(vec2(texel) + 0.5) * g.x;
-    normals[count] = octDecode(g.yz);
+    vec3 position = cameraPosition + rayThrough(vec2(texel) + 0.5) * g.x;
+    vec3 normal = octDecode(g.yz);
+    // Constant indices: the places after it hold the last one, too.
+    for (int j = 0; j < 4; ++j) {
+      if (j < count) continue;
+      positions[j] = position;
+      normals[j] = normal;
+    }
     ++count;
   }
   if (count > 1 && together(positions, normals, count, receivers[0])) return 1;

@@ -40,20 +40,21 @@ struct Spiral {
     if (e0 > 1e-6) inwards = -p / glm::length(p);
     const double far = radialShare(std::min(rc + e0, reach), scale);
     const double near = radialShare(std::min(rc - e0, reach), scale);
-    e = kLargestEccentricity * (far - near) / std::max(1e-9, far + near);
+    e = 0.9 * (far - near) / std::max(1e-9, far + near);
   }
 
   /// Offset and area of cell `i` of `count`.
   std::pair<glm::dvec2, double> cell(int i, int count) const {
     const double turns = 0.6180339887498949 * i - std::atan2(inwards.y, inwards.x) / (2 * kPi);
-    const double phi = warpedAzimuth((turns - std::floor(turns)) * 2 * kPi - kPi, e);
-    const double cosine = std::cos(phi), sine = std::sin(phi);
+    const double even = 1 / (1 + e * std::cos(2 * kPi * turns)), squeeze = std::sqrt(1 - e * e);
+    const double cosine = (std::cos(2 * kPi * turns) + e) * even;
+    const double sine = squeeze * std::sin(2 * kPi * turns) * even;
     const double share = radialShare(std::min(distanceToCircle(e0, rc, cosine, sine), reach), scale);
     const double a = radiusOfShare(share * i / count, scale);
     const double q = radiusOfShare(share * (i + 0.5) / count, scale);
     const double b = radiusOfShare(share * (i + 1) / count, scale);
     return {q * (cosine * inwards + sine * glm::dvec2(-inwards.y, inwards.x)),
-            kPi * (b * b - a * a) / (1 + e * cosine)};
+            kPi * (b * b - a * a) * squeeze * even};
   }
 };
 

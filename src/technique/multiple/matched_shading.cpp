@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "gpu/pass.h"
-#include "technique/multiple/spiral.h"
 
 namespace lychnite {
 namespace {
@@ -13,6 +12,8 @@ constexpr int kMostPixels = 1 << 19;
 /// Samples of a pixel nearer together than this many mean lengths of the profile's core share a receiver.
 constexpr double kShareWithin = 0.25;
 constexpr int kGroupSize = 64;  // of lists/matched_evaluate.comp
+/// Enough to keep a large device busy; every group costs, also one that finds nothing in the list.
+constexpr int kMostGroups = 1024;
 
 gpu::Program computeProgram(const std::string& label, const std::string& file) {
   gpu::ProgramDesc desc;
@@ -36,18 +37,6 @@ MultipleMatchedShading::MultipleMatchedShading()
     : plan_(shadingProgram("matched, plan", "lists/matched_plan.frag")),
       evaluate_(computeProgram("matched, evaluate", "lists/matched_evaluate.comp")),
       gather_(shadingProgram("matched, gather", "lists/matched_gather.frag")) {}
-
-const gpu::Texture& MultipleMatchedShading::azimuths() {
-  if (azimuths_) return *azimuths_;
-  azimuths_.emplace(gpu::TextureDesc{.label = "azimuths",
-                                     .format = gpu::Format::kRg32f,
-                                     .width = kAzimuthColumns,
-                                     .height = kAzimuthRows,
-                                     .filter = gpu::Filter::kLinear});
-  const std::vector<glm::vec2> table = azimuthTable();
-  azimuths_->upload(std::span<const float>(&table[0].x, table.size() * 2));
-  return *azimuths_;
-}
 
 void MultipleMatchedShading::resize(const CameraFrame& camera) {
   const auto texture = [&](const char* label, int width, int height) {
@@ -80,7 +69,6 @@ void MultipleMatchedShading::setUniforms(gpu::Program& program, const ShadingInp
   map.view.setUniforms(program);
   program.setTexture("moments", *map.moments);
   program.setTexture("profile", *profile.table);
-  program.setTexture("azimuths", azimuths());
   program.set("profileScale", profile.scale);
   program.set("centreDepth", map.view.centreDepth);
   program.set("boundRadius", target.bounds.radius);
@@ -135,7 +123,7 @@ void MultipleMatchedShading::evaluate(const Target& target, int level, const gpu
   evaluate_.setImage("evaluated", level > 0 ? here.value : *evaluated_);
   evaluate_.set("firstRow", level > 0 ? 0 : sites.y);
   const int most = here.value.width() * here.value.height() * (level > 0 ? 1 : 4);
-  gpu::dispatch("matched, evaluate", evaluate_, std::clamp(most / kGroupSize, 1, 4096));
+  gpu::dispatch("matched, evaluate", evaluate_, std::clamp(most / kGroupSize, 1, kMostGroups));
 }
 
 void MultipleMatchedShading::shade(const Target& target, const Layer::Target& layer) {

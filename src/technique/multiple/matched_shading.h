@@ -34,7 +34,6 @@ class MultipleMatchedShading {
     const ShadingInputs& in;
     size_t object, light;
   };
-  const gpu::Texture& azimuths();
   void resize(const CameraFrame& camera);
   void plan(const Target& target, int level, const gpu::Rect& sites);
   void evaluate(const Target& target, int level, const gpu::Rect& sites);
@@ -42,7 +41,6 @@ class MultipleMatchedShading {
   void shade(const Target& target, const Layer::Target& layer);
 
   gpu::Program plan_, evaluate_, gather_;
-  std::optional<gpu::Texture> azimuths_;
   std::array<std::optional<Level>, kLevels> levels_;  ///< shared by all objects and lights
   std::optional<gpu::Texture> evaluated_;             ///< of level 0, a row for each receiver of a pixel
 };

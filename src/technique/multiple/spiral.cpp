@@ -1,37 +1,6 @@
 #include "technique/multiple/spiral.h"
 
-#include <cassert>
-#include <cmath>
-#include <numbers>
-
 namespace lychnite {
-
-double warpedAzimuth(double m, double e) {
-  assert(e >= 0 && e < 1 && std::abs(m) <= std::numbers::pi + 1e-12);
-  // Monotone in phi and convex on either side of 0: bisection to be safe at large e, then Newton's digits.
-  double low = -std::numbers::pi, high = std::numbers::pi;
-  for (int i = 0; i < 20; ++i) {
-    const double middle = 0.5 * (low + high);
-    (middle + e * std::sin(middle) < m ? low : high) = middle;
-  }
-  double phi = 0.5 * (low + high);
-  for (int i = 0; i < 4; ++i) phi -= (phi + e * std::sin(phi) - m) / (1 + e * std::cos(phi));
-  return phi;
-}
-
-std::vector<glm::vec2> azimuthTable() {
-  std::vector<glm::vec2> table;
-  table.reserve(size_t(kAzimuthColumns) * size_t(kAzimuthRows));
-  for (int row = 0; row < kAzimuthRows; ++row) {
-    const double e = kLargestEccentricity * row / (kAzimuthRows - 1);
-    for (int column = 0; column < kAzimuthColumns; ++column) {
-      const double turn = double(column) / (kAzimuthColumns - 1);
-      const double phi = warpedAzimuth(2 * std::numbers::pi * (turn - 0.5), e);
-      table.emplace_back(std::cos(phi), std::sin(phi));
-    }
-  }
-  return table;
-}
 
 double spiralReach(const Profile& profile) {
   const Rgb total = profile.P(0);
@@ -44,9 +13,15 @@ double spiralReach(const Profile& profile) {
 }
 
 double spiralScale(const Profile& profile) {
-  const Rgb core = profile.coreLength();
-  const int channels = (core.x > 0) + (core.y > 0) + (core.z > 0);
-  return channels > 0 ? (core.x + core.y + core.z) * 3 / channels : 1;
+  const Rgb core = profile.coreLength(), total = profile.P(0);
+  double sum = 0;
+  int channels = 0;
+  for (int c = 0; c < 3; ++c) {
+    if (core[c] <= 0 || total[c] <= 0) continue;
+    sum += core[c];
+    ++channels;
+  }
+  return channels > 0 ? sum * 3 / channels : 1;
 }
 
 }  // namespace lychnite

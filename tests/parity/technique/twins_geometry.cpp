@@ -154,6 +154,18 @@ std::vector<Twin> spiralTwins() {
       {.function = "radiusOfShare",
        .value = [](const Inputs& in) { return dvec4(in[0].y / (1 / in[0].x - 1)); },
        .grid = numbers({{1e-3, 0.1, 0.5, 0.9, 0.99}, {0.01, 0.3, 5}})},
+      {.function = "denserAhead",
+       .value =
+           [](const Inputs& in) {
+             // The true anomaly of an orbit whose eccentric anomaly turns evenly.
+             const double m = in[0].x, ratio = std::sqrt((1 - in[0].y) / (1 + in[0].y));
+             const double phi = 2 * std::atan2(ratio * std::sin(m / 2), std::cos(m / 2));
+             const double half = std::cos(m / 2), other = std::sin(m / 2);
+             return dvec4(std::cos(phi), std::sin(phi), ratio / (half * half + ratio * ratio * other * other),
+                          0);
+           },
+       .grid = numbers({{0, 0.4, 1.6, 3, 4, 6}, {0, 0.3, 0.7, 0.9}}),
+       .floor = 0.1},
       {.function = "distanceToCircle",
        .value =
            [](const Inputs& in) {

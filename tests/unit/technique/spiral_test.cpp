@@ -2,43 +2,34 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <numbers>
+#include "lychnite/optics/materials.h"
 
 namespace lychnite {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-TEST(Spiral, AzimuthSolvesItsEquation) {
-  for (const double e : {0.0, 0.3, 0.9})
-    for (int i = 0; i <= 200; ++i) {
-      const double m = kPi * (i / 100.0 - 1);
-      const double phi = warpedAzimuth(m, e);
-      EXPECT_NEAR(phi + e * std::sin(phi), m, 1e-9) << e << " " << m;
-      EXPECT_LE(std::abs(phi), kPi + 1e-9);
+TEST(Spiral, ReachLeavesAThousandthOfTheChannelThatReachesFarthest) {
+  for (const char* material : {"marble", "ketchup", "skin1"}) {
+    const auto profile = makeProfile(ProfileKind::kDipole, findMaterial(material, "").coefficients);
+    const double reach = spiralReach(*profile);
+    const Rgb all = profile->P(0), left = profile->P(reach), before = profile->P(reach / 1.21);
+    double most = 0, mostBefore = 0;
+    for (int c = 0; c < 3; ++c) {
+      most = std::max(most, left[c] / all[c]);
+      mostBefore = std::max(mostBefore, before[c] / all[c]);
     }
+    EXPECT_LE(most, 1e-3) << material;
+    EXPECT_GT(mostBefore, 1e-3) << material << ": not much farther than it has to be";
+  }
 }
 
-// The share of azimuths below phi is (phi + e sin phi + pi) / 2 pi when their density is (1 + e cos phi) / 2
-// pi.
-TEST(Spiral, TableFollowsTheDensity) {
-  const auto table = azimuthTable();
-  ASSERT_EQ(table.size(), size_t(kAzimuthColumns * kAzimuthRows));
-  for (const int row : {0, 31, 63}) {
-    const double e = kLargestEccentricity * row / (kAzimuthRows - 1);
-    int towards = 0;
-    for (int i = 0; i + 1 < kAzimuthColumns; ++i) {
-      const glm::vec2 direction = table[size_t(row * kAzimuthColumns + i)];
-      EXPECT_NEAR(std::hypot(direction.x, direction.y), 1, 1e-6);
-      towards += direction.x > 0;
-    }
-    EXPECT_NEAR(towards, (kAzimuthColumns - 1) * (0.5 + e / kPi), 2) << e;
-    const glm::vec2 first = table[size_t(row * kAzimuthColumns)],
-                    last = table[size_t((row + 1) * kAzimuthColumns - 1)];
-    EXPECT_NEAR(first.x, last.x, 1e-6) << "a full turn";
-    EXPECT_NEAR(first.y, last.y, 1e-6);
-  }
+TEST(Spiral, AChannelThatDoesNotScatterDoesNotNarrowThePattern) {
+  const Coefficients grey{.sigma_s = Rgb(2), .sigma_a = Rgb(0.1), .eta = 1.3};
+  Coefficients red = grey;
+  red.sigma_s = Rgb(2, 0, 0);
+  EXPECT_NEAR(spiralScale(*makeProfile(ProfileKind::kDipole, red)),
+              spiralScale(*makeProfile(ProfileKind::kDipole, grey)), 1e-12);
+  EXPECT_NEAR(spiralScale(*makeProfile(ProfileKind::kDipole, grey)),
+              3 * makeProfile(ProfileKind::kDipole, grey)->coreLength().x, 1e-12);
 }
 
 }  // namespace
