@@ -37,8 +37,8 @@ struct RenderSettings {
   ProfileKind profile = ProfileKind::kDipole;
   Components components;
   int multipleSamples = 24;  ///< matched: at a surface that faces the light, 8..128
-  /// matched: largest relative difference between evaluations two pixels apart that is interpolated across,
-  /// 0..1; 0 evaluates every pixel for itself.
+  /// matched: largest relative difference between neighbouring evaluations that is interpolated across, 0..1;
+  /// twice as much where they are near beside the profile's core; 0 evaluates every pixel for itself.
   double interpolation = 0.08;
   LatticeConstants lattice;  ///< adaptive, fixed
   int singleSamples = 8;     ///< along the refracted ray (real-time methods), 1..256
