@@ -43,7 +43,7 @@ class Beamer {
   }
 
   void follow(const RayHit& from, const Surface::Sample& sample, const glm::vec3& direction, float flux,
-              size_t number);
+              size_t number, size_t looks);
   const Tally& tally() const { return tally_; }
 
  private:
@@ -72,9 +72,10 @@ class Beamer {
   glm::vec3 sigma_{0}, albedo_{0};  ///< of the reduced medium, local units
 };
 
-/// Light of `flux` that is refracted along `direction` at a point of `sample`; `number` of the beam.
+/// Light of `flux` that is refracted along `direction` at a point of `sample`; `number` of the beam, `looks`
+/// for the first order.
 void Beamer::follow(const RayHit& from, const Surface::Sample& sample, const glm::vec3& direction, float flux,
-                    size_t number) {
+                    size_t number, size_t looks) {
   object_ = from.object;
   shells_ = 1;
   entered_ = flux;
@@ -92,7 +93,9 @@ void Beamer::follow(const RayHit& from, const Surface::Sample& sample, const glm
     const RayHit hit = world_.rays->nearestInside(object_, start, onwards, far);
     float length = (hit ? hit.distance : far) / in.size;
     if (mirrorings == 0) {
-      look(from, direction, flux, hit ? hit.distance : std::numeric_limits<float>::infinity(), number);
+      const float distance = hit ? hit.distance : std::numeric_limits<float>::infinity();
+      for (size_t i = 0; i < looks; ++i)
+        look(from, direction, flux / float(looks), distance, number * kTogether + i);
       enterLayer(beam, sample, -glm::dot(direction, from.normal), length);
     }
     march(beam, length);
@@ -282,7 +285,8 @@ Beamed beamLight(const World& world, const RayLight& light, const std::vector<En
         const float cosI = std::fmin(1.0f, -glm::dot(arriving, from.normal));
         const float cosT = transport::fresnel(cosI, body.medium.eta).cosT;
         beamer.follow(from, body.shape->surface.samples()[in.brightest[n]],
-                      transport::refracted(arriving, from.normal, body.medium.eta, cosI, cosT), flux, n);
+                      transport::refracted(arriving, from.normal, body.medium.eta, cosI, cosT), flux, n,
+                      together);
         flux = 0;
         together = 0;
       }
