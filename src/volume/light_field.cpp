@@ -30,7 +30,6 @@ void LightSolver::beam(LightField& field) {
   stats_.sourceMs += since(start);
   const auto solving = std::chrono::steady_clock::now();
   field.absorbed = field.beamed.tally.absorbed;
-  for (auto& phi : field.phi) phi.clear();
   field.phiBeam.resize(bodies);
   field.beam.assign(bodies, {});
   field.beamFirst.assign(bodies, {});
@@ -85,7 +84,7 @@ void LightSolver::solve(LightField& field) {
       const Deposits& deposits = field.deposits[half][i];
       std::vector<Lanes> Q = deposits.source;
       for (Lanes& q : Q) q *= each;
-      if (field.phi[half][i].empty()) field.phi[half][i] = field.phiBeam[i];
+      field.phi[half][i] = field.phiBeam[i];  // whatever was solved for before: the same bits
       stats_.iterations += system.solve(Q, field.phi[half][i], kFiner * settings_.tolerance).iterations;
       field.absorbed += 0.5 * system.absorbed(field.phi[half][i]);
       std::vector<Lanes>&all = field.all[half][i], &first = field.first[half][i] = deposits.first;
@@ -124,14 +123,12 @@ LightField::Fluxes LightSolver::lightThatReturns(LightField& field) {
   const int oneOf = field.passes == 0 ? kFewerReturn : 1;
   const std::vector<Deposits> back =
       exchange_.send(world_, leaving, collisions, settings_.seed, oneOf, tally);
-  field.phiBack.resize(back.size());
   for (size_t i = 0; i < back.size(); ++i) {
     if (!world_.bodies[i]) continue;
     const DiffusionSystem& system = world_.bodies[i]->system;
-    std::vector<Lanes>& exits = result[i];
-    stats_.iterations +=
-        system.solve(back[i].source, field.phiBack[i], std::max(0.03, settings_.tolerance)).iterations;
-    system.exits(field.phiBack[i], exits);
+    std::vector<Lanes> phi, &exits = result[i];
+    stats_.iterations += system.solve(back[i].source, phi, std::max(0.03, settings_.tolerance)).iterations;
+    system.exits(phi, exits);
     Lanes before{0, 0, 0, 0}, after{0, 0, 0, 0};
     for (const Lanes& l : leaving[i]) before += l;
     for (size_t n = 0; n < exits.size(); ++n) after += exits[n] += back[i].later[n];

@@ -23,7 +23,7 @@ struct LightField {
   Fluxes phi[2];
   Fluxes all[2], first[2];
   // Light that leaves and enters again.
-  Fluxes phiBack, again;
+  Fluxes again;
   int exchangedAt = 0;  ///< passes
   Rgb absorbed{0};
 
