@@ -137,7 +137,9 @@ Spiral spiralOf(Ground g) {
   s.farthest = length(vec2(reach, s.d));
   float farShare = radialShare(min(length(vec2(s.rc + s.e0, s.d)), s.farthest), spiralScale) - s.g0;
   float nearShare = radialShare(min(length(vec2(s.rc - s.e0, s.d)), s.farthest), spiralScale) - s.g0;
-  s.e = 0.9 * (farShare - nearShare) / max(1e-9, farShare + nearShare);
+  // Cells ahead, behind and beside are wanted as 1 + e, 1 - e and 1 are to each other; e / (1 + e) gives that ahead and beside.
+  float e = 0.9 * (farShare - nearShare) / max(1e-9, farShare + nearShare);
+  s.e = e / (1.0 + e);
   // The golden angle's turns are the map's own, not counted from `inwards`: the pattern would spin where the receiver
   // crosses the axis.
   s.inwardsTurn = atan(s.inwards.y, s.inwards.x) / 6.283185307179586;
@@ -153,7 +155,8 @@ struct Cell {
 
 Cell cellOf(Ground g, Spiral s, float cells, int index) {
   float i = float(index);
-  vec3 phi = denserAhead(6.283185307179586 * fract(0.6180339887498949 * i - s.inwardsTurn), s.e);
+  // From behind, so that the largest cells, the first, do not all lie ahead.
+  vec3 phi = denserAhead(6.283185307179586 * (fract(0.6180339887498949 * i - s.inwardsTurn) - 0.5), s.e);
   float edge = min(length(vec2(distanceToCircle(s.e0, s.rc, phi.x, phi.y), s.d)), s.farthest);
   float share = radialShare(edge, spiralScale) - s.g0;
   vec3 at = vec3(i, i + 0.5, i + 1.0) * (share / cells) + s.g0;

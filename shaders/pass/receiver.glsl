@@ -18,7 +18,7 @@ struct Receiver {
   vec3 position;  // scene units
   vec3 normal;
   vec3 view;      // towards the camera
-  vec4 cosO;      // of its samples; the last one's again where there are fewer than four
+  vec4 cosO;      // of its samples; all alike where it has one, or one lobe
   float weight;   // share of the pixel
 };
 
@@ -32,21 +32,15 @@ Receiver receiverAt(vec3 position, vec3 normal, float weight) {
   return Receiver(position, normal, view, vec4(clamp(dot(normal, view), 0.0, 1.0)), weight);
 }
 
-// One receiver for `count` samples, if they are one smooth piece: normals within about 25 degrees, points near one plane in
-// terms of their own spread; and of one exit lobe, or near together. Beyond `count` the last sample is repeated.
-bool together(vec3 positions[4], vec3 normals[4], int count, out Receiver receiver) {
-  vec3 centre = vec3(0.0);
-  vec3 normal = vec3(0.0);
-  for (int i = 0; i < 4; ++i) {
-    float w = i < count ? 1.0 / float(count) : 0.0;
-    centre += w * positions[i];
-    normal += w * normals[i];
-  }
+// One receiver for the samples, if there are four and they are one smooth piece: normals within about 25 degrees, points near
+// one plane in terms of their own spread; and of one exit lobe, or near together.
+bool together(vec3 positions[4], vec3 normals[4], out Receiver receiver) {
+  vec3 centre = 0.25 * (positions[0] + positions[1] + positions[2] + positions[3]);
+  vec3 normal = 0.25 * (normals[0] + normals[1] + normals[2] + normals[3]);
   float agreement = length(normal);
   normal = normalize(normal);
-  // The diagonals of four.
   float spread = max(distance(positions[0], positions[3]), distance(positions[1], positions[2]));
-  receiver = receiverAt(centre, normal, 0.25 * float(count));
+  receiver = receiverAt(centre, normal, 1.0);
   float off = 0.0;
   vec4 cosO;
   for (int i = 0; i < 4; ++i) {
@@ -55,7 +49,7 @@ bool together(vec3 positions[4], vec3 normals[4], int count, out Receiver receiv
   }
   float least = min(min(cosO.x, cosO.y), min(cosO.z, cosO.w));
   float most = max(max(cosO.x, cosO.y), max(cosO.z, cosO.w));
-  bool oneLobe = count == 4 && most - least < kLobeSpread * least * least;
+  bool oneLobe = most - least < kLobeSpread * least * least;
   if (!oneLobe) receiver.cosO = clamp(cosO, 0.0, 1.0);
   return agreement > 0.975 && off < 0.25 * spread && (oneLobe || spread < shareWithin);
 }
@@ -71,7 +65,7 @@ int loadReceivers(ivec2 first, out Receiver receivers[4]) {
     if (g.w != objectNumber) continue;
     vec3 position = cameraPosition + rayThrough(vec2(texel) + 0.5) * g.x;
     vec3 normal = octDecode(g.yz);
-    // Constant indices: the places after it hold the last one, too.
+    // Constant indices keep the arrays in registers: the places after it hold it, too.
     for (int j = 0; j < 4; ++j) {
       if (j < count) continue;
       positions[j] = position;
@@ -79,7 +73,7 @@ int loadReceivers(ivec2 first, out Receiver receivers[4]) {
     }
     ++count;
   }
-  if (count > 1 && together(positions, normals, count, receivers[0])) return 1;
+  if (count == 4 && together(positions, normals, receivers[0])) return 1;
   for (int i = 0; i < 4; ++i)
     if (i < count) receivers[i] = receiverAt(positions[i], normals[i], 0.25);
   return count;

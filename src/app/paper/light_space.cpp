@@ -40,12 +40,13 @@ struct Spiral {
     if (e0 > 1e-6) inwards = -p / glm::length(p);
     const double far = radialShare(std::min(rc + e0, reach), scale);
     const double near = radialShare(std::min(rc - e0, reach), scale);
-    e = 0.9 * (far - near) / std::max(1e-9, far + near);
+    const double wanted = 0.9 * (far - near) / std::max(1e-9, far + near);
+    e = wanted / (1 + wanted);
   }
 
   /// Offset and area of cell `i` of `count`.
   std::pair<glm::dvec2, double> cell(int i, int count) const {
-    const double turns = 0.6180339887498949 * i - std::atan2(inwards.y, inwards.x) / (2 * kPi);
+    const double turns = 0.6180339887498949 * i - std::atan2(inwards.y, inwards.x) / (2 * kPi) - 0.5;
     const double even = 1 / (1 + e * std::cos(2 * kPi * turns)), squeeze = std::sqrt(1 - e * e);
     const double cosine = (std::cos(2 * kPi * turns) + e) * even;
     const double sine = squeeze * std::sin(2 * kPi * turns) * even;
