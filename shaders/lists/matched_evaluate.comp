@@ -14,8 +14,11 @@ uniform int firstRow;
 
 void main() {
   LightView view = lightView();
-  uint step = gl_NumWorkGroups.x * gl_WorkGroupSize.x;
-  for (uint i = gl_GlobalInvocationID.x; i < siteCount; i += step) {
+  // A software driver gives each core groups in a row: their numbers' bits are turned round, so that the list's beginning is
+  // not one core's alone.
+  uint group = bitfieldReverse(gl_WorkGroupID.x) >> (32 - GROUP_BITS);
+  uint step = gl_WorkGroupSize.x << GROUP_BITS;
+  for (uint i = group * gl_WorkGroupSize.x + gl_LocalInvocationID.x; i < siteCount; i += step) {
     Receiver receivers[4];
     ivec2 site = siteOf(sites[i]);
     int number = receiverOf(sites[i]);

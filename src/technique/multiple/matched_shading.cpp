@@ -11,14 +11,15 @@ namespace {
 constexpr int kMostPixels = 1 << 19;
 /// Samples of a pixel nearer together than this many mean lengths of the profile's core share a receiver.
 constexpr double kShareWithin = 0.25;
-constexpr int kGroupSize = 64;  // of lists/matched_evaluate.comp
-/// Enough to keep a large device busy; every group costs, also one that finds nothing in the list.
-constexpr int kMostGroups = 1024;
+/// Groups of lists/matched_evaluate.comp, as a power of two: enough to keep a large device busy; every group
+/// costs, also one that finds nothing in the list.
+constexpr int kGroupBits = 9;
 
 gpu::Program computeProgram(const std::string& label, const std::string& file) {
   gpu::ProgramDesc desc;
   desc.label = label;
   desc.compute = file;
+  desc.defines = {{"GROUP_BITS", std::to_string(kGroupBits)}};
   return gpu::Program(desc);
 }
 
@@ -122,8 +123,7 @@ void MultipleMatchedShading::evaluate(const Target& target, int level, const gpu
   evaluate_.setStorage("Sites", here.sites);
   evaluate_.setImage("evaluated", level > 0 ? here.value : *evaluated_);
   evaluate_.set("firstRow", level > 0 ? 0 : sites.y);
-  const int most = here.value.width() * here.value.height() * (level > 0 ? 1 : 4);
-  gpu::dispatch("matched, evaluate", evaluate_, std::clamp(most / kGroupSize, 1, kMostGroups));
+  gpu::dispatch("matched, evaluate", evaluate_, 1 << kGroupBits);
 }
 
 void MultipleMatchedShading::shade(const Target& target, const Layer::Target& layer) {
