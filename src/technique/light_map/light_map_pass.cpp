@@ -82,7 +82,7 @@ void LightMapPass::draw(Map& map, const Frame& frame, const MeshCache& meshes, s
   };
   constexpr auto kSingle = gpu::Filter::kNearest, kChain = gpu::Filter::kLinearMipNearest;
   fit(depth_, true, "light map depth", gpu::Format::kDepth32f, kSingle);
-  fit(map.cosine, needs.cosine, "light map", gpu::Format::kRg32f, kChain);
+  fit(map.cosine, needs.cosine || needs.moments, "light map", gpu::Format::kRg32f, kChain);
   fit(map.normal, needs.fiveChannels, "light map normal", gpu::Format::kRgba32f, kChain);
   fit(map.normalDepth, needs.fiveChannels, "light map normal depth", gpu::Format::kR32f, kChain);
   // Beyond the border no flux enters, and coarse levels fade there.
@@ -90,7 +90,17 @@ void LightMapPass::draw(Map& map, const Frame& frame, const MeshCache& meshes, s
       gpu::Wrap::kClampToBorder);
   fit(map.farDepth, needs.farDepth, "far depth", gpu::Format::kR32f, kSingle);
   const float background = float(map.view.backgroundDepth);
-  if (map.cosine) {
+  if (map.moments) {
+    gpu::Framebuffer framebuffer(
+        {.label = "light map", .colours = {*map.moments, *map.cosine}, .depth = *depth_});
+    framebuffer.clearColour(0, {0, 0, 0, 0});
+    framebuffer.clearColour(1, {background, 0, 0, 0});
+    momentsProgram_.set("eta", frame.objects[object].medium.eta);
+    momentsProgram_.set("centreDepth", map.view.centreDepth);
+    drawNearest(momentsProgram_, framebuffer, map, frame, meshes, object);
+    map.moments->generateMipmaps();
+    map.cosine->generateMipmaps();
+  } else if (map.cosine) {
     gpu::Framebuffer framebuffer({.label = "light map", .colours = {*map.cosine}, .depth = *depth_});
     framebuffer.clearColour(0, {background, 0, 0, 0});
     drawNearest(cosineProgram_, framebuffer, map, frame, meshes, object);
@@ -104,14 +114,6 @@ void LightMapPass::draw(Map& map, const Frame& frame, const MeshCache& meshes, s
     drawNearest(normalProgram_, framebuffer, map, frame, meshes, object);
     map.normal->generateMipmaps();
     map.normalDepth->generateMipmaps();
-  }
-  if (map.moments) {
-    gpu::Framebuffer framebuffer({.label = "light map", .colours = {*map.moments}, .depth = *depth_});
-    framebuffer.clearColour(0, {0, 0, 0, 0});
-    momentsProgram_.set("eta", frame.objects[object].medium.eta);
-    momentsProgram_.set("centreDepth", map.view.centreDepth);
-    drawNearest(momentsProgram_, framebuffer, map, frame, meshes, object);
-    map.moments->generateMipmaps();
   }
   if (map.farDepth) drawFarthest(map, frame, meshes, object);
 }
