@@ -29,8 +29,8 @@ class MeshAnimation {
   /// The mesh at a moment of a clip, from 0 to its seconds (others are clamped). Vertices and triangles are
   /// those of the file and the same at every moment. Its extent has the box of the mesh at rest, so that an
   /// object keeps its place and scale while it moves, and the radius about the box's centre that holds every
-  /// moment of the clip. Throws Error for a moment at which a vertex has no finite place or one past a million
-  /// sizes away; Error (Kind::kUsage) for a clip that is not there.
+  /// moment of the clip. Throws Error for a moment at which a vertex has no finite place or one past a
+  /// million sizes away; Error (Kind::kUsage) for a clip that is not there.
   std::shared_ptr<const Mesh> pose(size_t clip, double seconds) const;
 
  private:

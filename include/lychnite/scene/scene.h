@@ -39,8 +39,8 @@ struct Object {
 };
 
 /// Shows a moment of one of the object's clips, or the mesh at rest for "". Its size and place are those of
-/// the mesh at rest. Throws Error for a pose that MeshAnimation::pose() refuses, and (Kind::kUsage) for a clip
-/// that the model does not have, naming the nearest; the object is then as it was.
+/// the mesh at rest. Throws Error for a pose that MeshAnimation::pose() refuses, and (Kind::kUsage) for a
+/// clip that the model does not have, naming the nearest; the object is then as it was.
 void setPose(Object& object, const std::string& clip, double seconds);
 
 /// Light from infinitely far. `irradiance` is E0 on a surface facing it; pi makes white Lambertian

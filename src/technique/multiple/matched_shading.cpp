@@ -86,7 +86,6 @@ void MultipleMatchedShading::setSiteUniforms(gpu::Program& program, const Target
   program.set("level", level);
   program.set("eta", target.in.frame.objects[target.object].medium.eta);
   program.set("piC", profile.piC);
-  program.set("shareWithin", kShareWithin * profile.coreLength);
 }
 
 void MultipleMatchedShading::plan(const Target& target, int level, const gpu::Rect& sites) {
@@ -105,8 +104,10 @@ void MultipleMatchedShading::plan(const Target& target, int level, const gpu::Re
     plan_.setTexture("coarserValue", target.in.geometry.samples());
     plan_.setTexture("coarserSurface", target.in.geometry.samples());
   }
+  const double coreLength = target.in.profiles.get(target.object).coreLength;
   plan_.set("interpolation", target.in.settings.interpolation);
-  plan_.set("coreLength", target.in.profiles.get(target.object).coreLength);
+  plan_.set("coreLength", coreLength);
+  plan_.set("shareWithin", kShareWithin * coreLength);
   plan_.set("faint", glm::vec3(faintRadiosity(target.in, target.object, target.light)));
   plan_.setStorage("Sites", here.sites);
   const gpu::Rect bounds{sites.x, level > 0 ? sites.y : 0, sites.width, sites.height};

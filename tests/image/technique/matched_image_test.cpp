@@ -148,5 +148,24 @@ TEST_F(MatchedImage, SteadyUnderSlowLightAndSize) {
     }
 }
 
+TEST_F(MatchedImage, ALargePictureIsTheSmallOneWithMoreDetail) {
+  // More pixels than are shaded at once (2^19), so that the larger picture is made in bands; one more row and
+  // column than whole blocks of pixels.
+  Scene scene = oneObject("figurine", 20, "fig6");
+  scene.lights = {ParallelLight{.azimuth = -40, .elevation = 35}};
+  const Image large = render(scene, matched(16, 801)), small = render(scene, matched(16, 89));
+  double error = 0, mean = 0;
+  for (int y = 0; y < 89; ++y)
+    for (int x = 0; x < 89; ++x) {
+      double sum = 0;
+      for (int i = 0; i < 81; ++i)
+        sum += double(large.rgb(size_t(9 * y + i / 9) * 801 + size_t(9 * x + i % 9)).y) / 81;
+      const double one = double(small.rgb(size_t(y) * 89 + size_t(x)).y);
+      error += (sum - one) * (sum - one);
+      mean += one;
+    }
+  EXPECT_LT(std::sqrt(error / (89.0 * 89)) / (mean / (89.0 * 89)), 0.05);
+}
+
 }  // namespace
 }  // namespace lychnite
