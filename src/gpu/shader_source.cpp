@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
-#include <regex>
+#include <optional>
 #include <sstream>
+#include <string_view>
 
 #include "lychnite/base/error.h"
 
@@ -31,11 +32,20 @@ std::string header(GlslDialect dialect, const ShaderDefines& defines) {
   return text;
 }
 
+/// `text` without what stands at its beginning: any number of blanks and then `word`. Nothing when it begins
+/// otherwise.
+std::optional<std::string_view> after(std::string_view text, std::string_view word) {
+  text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
+  return text.starts_with(word) ? std::optional(text.substr(word.size())) : std::nullopt;
+}
+
 /// The quoted path when the line is an include.
-std::string includedFile(const std::string& line) {
-  static const std::regex pattern(R"re(^\s*#\s*include\s*"([^"]+)".*)re");
-  std::smatch match;
-  return std::regex_match(line, match, pattern) ? match[1].str() : "";
+std::string includedFile(std::string_view line) {
+  std::optional<std::string_view> rest = line;
+  for (const char* word : {"#", "include", "\""})
+    if (rest) rest = after(*rest, word);
+  const size_t end = rest ? rest->find('"') : std::string_view::npos;
+  return end == std::string_view::npos ? "" : std::string(rest->substr(0, end));
 }
 
 /// Puts files one into another and remembers which have been seen.
@@ -84,15 +94,40 @@ std::string placeOf(const ShaderSource& source, size_t line) {
   return source.files[place.file] + (place.line > 0 ? ":" + std::to_string(place.line) : " (its defines)");
 }
 
-bool parseMessage(const std::string& line, const ShaderSource& source, ShaderMessage& message) {
-  static const std::regex mesa(R"re(\d+:(\d{1,9})\(\d+\): (?:preprocessor )?error: (.*))re");
-  static const std::regex nvidia(R"re(\d+\((\d{1,9})\) : error (.*))re");
-  static const std::regex angle(R"re(ERROR: \d+:(\d{1,9}): (.*))re");
-  for (const std::regex* pattern : {&mesa, &nvidia, &angle}) {
-    std::smatch match;
-    if (!std::regex_search(line, match, *pattern)) continue;
-    message = {placeOf(source, std::stoul(match[1].str())), match[2].str()};
-    return true;
+/// A driver's message: the line of the text, from 1, and what is wrong there.
+struct Found {
+  size_t line = 0;
+  std::string_view words;
+};
+
+/// Where `text` begins as `pattern`, in which '#' stands for a number and '@' for the line's.
+std::optional<Found> beginsAs(std::string_view pattern, std::string_view text) {
+  Found found;
+  for (const char sign : pattern) {
+    if (sign == '#' || sign == '@') {
+      const size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
+      if (digits == 0 || digits > 9) return {};
+      if (sign == '@') found.line = std::stoul(std::string(text.substr(0, digits)));
+      text.remove_prefix(digits);
+    } else {
+      if (!text.starts_with(sign)) return {};
+      text.remove_prefix(1);
+    }
+  }
+  found.words = text;
+  return found;
+}
+
+bool parseMessage(std::string_view line, const ShaderSource& source, ShaderMessage& message) {
+  // Mesa's two, NVIDIA's and ANGLE's.
+  for (const char* pattern :
+       {"#:@(#): error: ", "#:@(#): preprocessor error: ", "#(@) : error ", "ERROR: #:@: "}) {
+    for (size_t from = 0; from < line.size(); ++from) {
+      const auto found = beginsAs(pattern, line.substr(from));
+      if (!found) continue;
+      message = {placeOf(source, found->line), std::string(found->words)};
+      return true;
+    }
   }
   return false;
 }
