@@ -69,6 +69,8 @@ void drawFileSection(PanelContext& context);
 void drawSizeBar(PanelContext& context, const Area& area);
 /// What is drawn over the picture: the ruler's numbers, the wipe, the lights' directions, messages, the keys.
 void drawOverlay(PanelContext& context, const Area& area, const std::vector<SessionMessage>& messages);
+/// The false colours of the difference view and what they stand for, in the lower right corner.
+void drawColourBar(PanelContext& context, const Area& area);
 /// The samples of the pixel under the mouse, on the light-space map's inset and on the object.
 void drawSamples(PanelContext& context, const Area& area);
 /// A point of the scene (mm) on the window; nothing behind the camera.

@@ -104,7 +104,9 @@ void drawWipe(PanelContext& context, ImDrawList& draw, const Area& area) {
   const std::string left = name(compare.left), right = name(compare.right);
   if (compare.mode == CompareView::Mode::kDifference) {
     text(draw, area.low + glm::dvec2(12 * s, 10 * s), kInk,
-         fmt::format("|{} - {}| over the mean of the right, 0 to {:.0f} %", left, right, 100 * compare.full));
+         fmt::format("|{} - {}| over the mean of the right", left, right));
+    if (context.view.available(compare.left) && context.view.available(compare.right))
+      drawColourBar(context, area);
     return;
   }
   draw.AddLine({float(x), float(area.low.y)}, {float(x), float(area.high.y)}, IM_COL32(230, 230, 230, 150),

@@ -219,13 +219,13 @@ void PictureView::update(const Request& request) {
 }
 
 void PictureView::updateWalk(const Request& request) {
-  walkShown_ = compares(Source::kTruth);
-  if (!walkShown_ || request.moving || restedAt_ > request.seconds) {
+  const bool wanted = compares(Source::kTruth);
+  if (!wanted || request.moving || restedAt_ > request.seconds) {
     // Anything else has the processor first, and what the walk knows is of another scene by now.
-    if (!walkShown_ || request.moving || request.seconds == changedAt_) {
+    if (!wanted || request.moving || request.seconds == changedAt_) {
       walk_.stop();
       walkTexture_.reset();
-      walkImage_.reset();
+      shownWalk_.reset();
     }
     return;
   }
@@ -235,10 +235,10 @@ void PictureView::updateWalk(const Request& request) {
   settings.height = request.pixels.y;
   settings.components = request.state->settings.components;
   walk_.want(request.state->scene, settings);
-  const auto newest = walk_.newest();
-  if (!newest || newest->image == walkImage_) return;
-  walkImage_ = newest->image;
-  walkTexture_ = uploaded(*walkImage_, "walk");
+  auto newest = walk_.newest();
+  if (!newest || (shownWalk_ && newest->image == shownWalk_->image)) return;
+  walkTexture_ = uploaded(*newest->image, "walk");
+  shownWalk_ = std::move(newest);
 }
 
 void PictureView::updateFile(const Request& request) {
@@ -246,10 +246,6 @@ void PictureView::updateFile(const Request& request) {
   fileImage_ = request.file;
   fileTexture_.reset();
   if (fileImage_ && fileImage_->hasRgb()) fileTexture_ = uploaded(*fileImage_, "opened picture");
-}
-
-bool PictureView::available(Source source) const {
-  return textureOf(source) != nullptr;
 }
 
 const gpu::Texture* PictureView::textureOf(Source source) const {
@@ -269,18 +265,20 @@ const gpu::Texture* PictureView::textureOf(Source source) const {
 std::string PictureView::labelOf(Source source) const {
   if (source == Source::kView) return live_.label();
   if (source == Source::kVariant && compares(source)) return variant_.label();
-  const auto truth = source == Source::kTruth ? walk() : std::nullopt;
-  return truth ? fmt::format("noise {:.1f} %, {:.0f} s", 100 * truth->noise, truth->seconds) : "";
+  if (source != Source::kTruth || !shownWalk_) return "";
+  return fmt::format("noise {:.1f} %, {:.0f} s", 100 * shownWalk_->noise, shownWalk_->seconds);
 }
 
 std::string PictureView::keyOf(Source source) const {
   if (source == Source::kView) return live_.key();
   if (source == Source::kVariant) return variant_.key();
-  return fmt::format("{}", fmt::ptr(source == Source::kTruth ? walkImage_.get() : fileImage_.get()));
+  return fmt::format("{}", fmt::ptr(source == Source::kFile ? fileImage_.get()
+                                    : shownWalk_            ? shownWalk_->image.get()
+                                                            : nullptr));
 }
 
 std::shared_ptr<const Image> PictureView::imageOf(Source source) const {
-  if (source == Source::kTruth) return walkImage_;
+  if (source == Source::kTruth) return shownWalk_->image;
   if (source == Source::kFile) return fileImage_;
   if (const auto& ready = (source == Source::kView ? live_ : variant_).image()) return ready;
   const gpu::Texture& texture = *textureOf(source);

@@ -113,6 +113,8 @@ class PictureView {
   bool ready() const { return live_.ready(); }
   /// All that is asked for is there at full resolution (the walk: a first picture of it).
   bool atRest() const { return atRest_; }
+  /// There is a picture of that side, be it an older one.
+  bool available(CompareView::Source source) const { return textureOf(source) != nullptr; }
   /// How the picture of a side is being made, "" when there is nothing to say.
   std::string labelOf(CompareView::Source source) const;
   /// The real-time pictures are there at full resolution; what is left goes on in the background.
@@ -129,7 +131,8 @@ class PictureView {
   /// there.
   const std::optional<SeenSamples>& samplesAt(const glm::dvec2& place, const ViewState& state);
   const RenderStats* stats() const { return live_.ready() ? &live_.stats() : nullptr; }
-  std::optional<BackgroundWalk::Result> walk() const { return walkShown_ ? walk_.newest() : std::nullopt; }
+  /// The walk's picture that is shown.
+  const std::optional<BackgroundWalk::Result>& walk() const { return shownWalk_; }
   std::string walkProblem() const { return walk_.problem(); }
   /// Of the scene's method, at rest, while it is asked for.
   SamplerError& samplerError() { return samplerError_; }
@@ -148,7 +151,6 @@ class PictureView {
   void updateWalk(const Request& request);
   void updateFile(const Request& request);
   void updateError(const Request& request);
-  bool available(Source source) const;
   const gpu::Texture* textureOf(Source source) const;
   std::shared_ptr<const Image> imageOf(Source source) const;
   std::string keyOf(Source source) const;
@@ -166,9 +168,9 @@ class PictureView {
   Pace pace_;
   BackgroundWalk walk_;
   SamplerError samplerError_;
-  bool walkShown_ = false;
+  std::optional<BackgroundWalk::Result> shownWalk_;
   std::optional<gpu::Texture> walkTexture_, fileTexture_;
-  std::shared_ptr<const Image> walkImage_, fileImage_;
+  std::shared_ptr<const Image> fileImage_;
   CompareView compare_;
   double changedAt_ = -1e9, restedAt_ = 1e300, idleMs_ = 8;
   std::string key_;

@@ -105,8 +105,8 @@ Ui::~Ui() {
 }
 
 void Ui::setFont() {
-  static const ImWchar kRanges[] = {0x20,   0x24f,  0x370,  0x3ff,  0x2010, 0x2027,
-                                    0x2070, 0x209f, 0x2190, 0x21ff, 0};
+  static const ImWchar kRanges[] = {0x20,   0x24f,  0x370,  0x3ff,  0x2010, 0x2027, 0x2070,
+                                    0x209f, 0x2190, 0x21ff, 0x2264, 0x2265, 0};
   ImGuiIO& io = ImGui::GetIO();
   ImFontConfig config;
   config.FontDataOwnedByAtlas = false;

@@ -107,6 +107,7 @@ class Viewer {
   void tellFrames() const;
   void screenshot(const fs::path& path);
   bool atRest() const;
+  double noise() const;
   Preferences loadPreferences();
 
   ViewOptions options_;
@@ -129,6 +130,9 @@ class Viewer {
   double seconds_ = 0, frameSeconds_ = 1 / 60.0, lastFrame_ = 0;
   int framesLeft_ = kFramesAfterInput;
   bool quit_ = false, swatchesLeft_ = true, pictureShown_ = false;
+  // Of the frame that is on the window, its labels included.
+  bool rested_ = false;
+  double shownNoise_ = std::numeric_limits<double>::infinity();
 };
 
 WindowOptions windowOptions(const ViewOptions& options, const Preferences& preferences) {
@@ -165,6 +169,7 @@ Viewer::~Viewer() {
     preferences_.windowWidth = std::clamp(int(size.x / scale), 320, 16384);
     preferences_.windowHeight = std::clamp(int(size.y / scale), 240, 16384);
   }
+  window_.hide();  // solvers behind it may take a moment to stop
   if (!session_.empty()) preferences_.ruler = session_.state().ruler;
   writePreferences(preferences_, preferencesPath_, options_.log);
 }
@@ -213,12 +218,8 @@ void Viewer::makePlayer() {
   }
   if (steps.empty() && options_.play.empty()) return;
   steps.push_back({.kind = ScriptStep::Kind::kQuit});
-  PlayerHost host{.atRest = [this] { return atRest(); },
-                  .noise =
-                      [this] {
-                        const auto walk = view_.walk();
-                        return walk ? walk->noise : std::numeric_limits<double>::infinity();
-                      },
+  PlayerHost host{.atRest = [this] { return atRest() && (rested_ || !window_.visible()); },
+                  .noise = [this] { return shownNoise_; },
                   .screenshot = [this](const std::string& path) { screenshot(path); },
                   .quit = [this] { quit_ = true; }};
   player_ = std::make_unique<Player>(std::move(steps), where, std::move(host));
@@ -227,6 +228,11 @@ void Viewer::makePlayer() {
 bool Viewer::atRest() const {
   return view_.ready() && view_.atRest() && !session_.loading() && !session_.pictures().busy() &&
          !swatchesLeft_ && !controls_.animation.running() && !profiles_.busy();
+}
+
+/// Of the walk's picture; infinite before there is one.
+double Viewer::noise() const {
+  return view_.walk() ? view_.walk()->noise : std::numeric_limits<double>::infinity();
 }
 
 /// A hand or an animation is on the picture.
@@ -290,11 +296,18 @@ void Viewer::frame(const std::vector<InputEvent>& events) {
   const Layout layout = layoutOf(window_.pixels(), ui_.scale(), preferences_.panelWidth);
   PanelContext context{ui_,       session_,     controls_, view_,
                        swatches_, preferences_, window_,   glm::ivec2(layout.picture.size())};
+  const bool restedBefore = atRest();
+  const double noiseBefore = noise();
   handle(events, context, layout.picture);
   animate();
   draw(context, layout);
   if (!moving()) session_.commit();
   finish(start);
+  // Panel and labels are laid out before the picture is drawn: what is new in this frame they tell in the
+  // next.
+  rested_ = restedBefore && atRest();
+  shownNoise_ = std::max(noiseBefore, noise());
+  if (rested_ != atRest() || noiseBefore != noise()) framesLeft_ = std::max(framesLeft_, 1);
 }
 
 void Viewer::handle(const std::vector<InputEvent>& events, PanelContext& context, const Area& picture) {

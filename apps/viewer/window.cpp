@@ -166,6 +166,10 @@ void Window::minimise() {
   glfwIconifyWindow(window_);
 }
 
+void Window::hide() {
+  glfwHideWindow(window_);
+}
+
 void Window::restore() {
   glfwRestoreWindow(window_);
 }

@@ -49,6 +49,7 @@ class Window {
   void setTitle(const std::string& title);
   void resize(glm::ivec2 size);
   void minimise();
+  void hide();
   void restore();
   void swap();
   /// What happened since the last call; waits for something to happen, at most so many seconds.
