@@ -62,6 +62,19 @@ bool catchesInterrupts(int pid) {
   return true;
 }
 
+/// Of a running process; 0 when it has none any more.
+size_t residentBytes(int pid) {
+  std::ifstream file("/proc/" + std::to_string(pid) + "/statm");
+  size_t all = 0, resident = 0;
+  file >> all >> resident;
+  return resident * size_t(sysconf(_SC_PAGESIZE));
+}
+
+bool hasEnded(int pid) {
+  siginfo_t info{};
+  return waitid(P_PID, id_t(pid), &info, WEXITED | WNOHANG | WNOWAIT) != 0 || info.si_pid == pid;
+}
+
 }  // namespace
 
 Scratch::Scratch() {
@@ -123,6 +136,16 @@ Result Scratch::finish(int pid) const {
 
 Result Scratch::run(const std::vector<std::string>& arguments, const Environment& environment) const {
   return finish(start(arguments, environment));
+}
+
+Result Scratch::watch(const std::vector<std::string>& arguments, const Environment& environment,
+                      const std::function<void(size_t)>& look) const {
+  const int pid = start(arguments, environment);
+  while (!hasEnded(pid)) {
+    look(residentBytes(pid));
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+  }
+  return finish(pid);
 }
 
 Result Scratch::runAndInterrupt(const std::vector<std::string>& arguments, double seconds) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -38,6 +39,9 @@ class Scratch {
 
   /// Runs `lychnite` to its end.
   Result run(const std::vector<std::string>& arguments, const Environment& environment = {}) const;
+  /// Runs it and tells `look` every second how many bytes it has resident now.
+  Result watch(const std::vector<std::string>& arguments, const Environment& environment,
+               const std::function<void(size_t residentBytes)>& look) const;
   /// Starts `lychnite`, sends SIGINT `seconds` after it began to listen to it, waits for its end.
   Result runAndInterrupt(const std::vector<std::string>& arguments, double seconds) const;
 
