@@ -54,6 +54,7 @@ class Beamer {
   };
   const Body& body() const { return *world_.bodies[size_t(object_)]; }
   void enterLayer(Beam& beam, const Surface::Sample& sample, float cosine, float& length);
+  void correct(float cosine, float length);
   void march(Beam& beam, float length);
   void collide(const glm::vec3& p, const glm::vec3& flux);
   void deposit(uint32_t cell, const glm::vec3& flux);
@@ -70,6 +71,7 @@ class Beamer {
   int shells_ = 1;
   float entered_ = 0;               ///< flux of the beam
   glm::vec3 sigma_{0}, albedo_{0};  ///< of the reduced medium, local units
+  glm::vec3 scattering_{0};         ///< share of what collides that becomes a source
 };
 
 /// Light of `flux` that is refracted along `direction` at a point of `sample`; `number` of the beam, `looks`
@@ -96,6 +98,7 @@ void Beamer::follow(const RayHit& from, const Surface::Sample& sample, const glm
       const float distance = hit ? hit.distance : std::numeric_limits<float>::infinity();
       for (size_t i = 0; i < looks; ++i)
         look(from, direction, flux / float(looks), distance, number * kTogether + i);
+      correct(-glm::dot(direction, from.normal), length);
       enterLayer(beam, sample, -glm::dot(direction, from.normal), length);
     }
     march(beam, length);
@@ -108,6 +111,13 @@ void Beamer::follow(const RayHit& from, const Surface::Sample& sample, const glm
   collide(beam.position, beam.flux);
 }
 
+/// Sources of a beam as strong as diffusion needs them to send out what transport does in a slab as thick as
+/// the object is here.
+void Beamer::correct(float cosine, float length) {
+  for (int c = 0; c < 3; ++c)
+    scattering_[c] = albedo_[c] * (1 + body().slabs[c].excess(sigma_[c] * length * cosine, cosine));
+}
+
 /// Down to the depth of the centroid under the sample, where the layer's integrals are known.
 void Beamer::enterLayer(Beam& beam, const Surface::Sample& sample, float cosine, float& length) {
   if (sample.cell == Grid::kNone) return;
@@ -115,13 +125,13 @@ void Beamer::enterLayer(Beam& beam, const Surface::Sample& sample, float cosine,
   const float way = std::fmin(length, sample.depth / cosine);
   const double end = double(way * cosine), depth = std::max(end, double(sample.depth));
   const glm::vec3 pass = glm::exp(-sigma_ * way);
-  const glm::vec3 scattered = beam.flux * (1.0f - pass) * albedo_;
+  const glm::vec3 scattered = beam.flux * (1.0f - pass) * scattering_;
   glm::vec3 leaving, staying;
   for (int c = 0; c < 3; ++c) {
     const Diffusion& diffusion = body().system.medium().channel[c];
     const double a = double(sigma_[c] / cosine);
-    leaving[c] = beam.flux[c] * albedo_[c] * float(diffusion.beamLeaving(a, end, depth));
-    staying[c] = beam.flux[c] * albedo_[c] * float(diffusion.beamStaying(a, end, depth));
+    leaving[c] = beam.flux[c] * scattering_[c] * float(diffusion.beamLeaving(a, end, depth));
+    staying[c] = beam.flux[c] * scattering_[c] * float(diffusion.beamStaying(a, end, depth));
   }
   tally_.absorbed += Rgb(beam.flux * (1.0f - pass) - scattered);
   tally_.absorbed += Rgb(scattered - leaving - staying);
@@ -157,7 +167,7 @@ void Beamer::march(Beam& beam, float length) {
 /// Light that collides at a point becomes a source, through the exit layer if it is near a surface.
 void Beamer::collide(const glm::vec3& p, const glm::vec3& flux) {
   const Surface& surface = body().shape->surface;
-  const glm::vec3 scattered = flux * albedo_;
+  const glm::vec3 scattered = flux * scattering_;
   tally_.absorbed += Rgb(flux - scattered);
   const auto place = surface.place(p);
   if (place.cell == Grid::kNone) {

@@ -30,6 +30,8 @@ Body::Body(std::shared_ptr<const Shape> which, const RayScene& rays, int object,
       system(shape->grid, shape->surface,
              DiffusionRgb(rays.scene().objects[size_t(object)].material.medium.scaled(
                  1 / rays.scene().objects[size_t(object)].size))),
-      trustClear(alone) {}
+      trustClear(alone) {
+  for (int c = 0; c < 3; ++c) slabs[c] = SlabTransport(system.medium().channel[c], double(medium.eta));
+}
 
 }  // namespace lychnite::volume

@@ -6,6 +6,7 @@
 #include "reference/ray_scene.h"
 #include "reference/transport.h"
 #include "volume/diffusion.h"
+#include "volume/slab_transport.h"
 #include "volume/smooth.h"
 
 namespace lychnite::volume {
@@ -36,6 +37,7 @@ struct Body {
   transport::Medium medium;   ///< per scene unit
   transport::Medium reduced;  ///< isotropic with sigma_sp, per scene unit
   DiffusionSystem system;     ///< local units
+  SlabTransport slabs[3];     ///< of the reduced medium's channels
   bool trustClear = true;     ///< nothing else can be inside
 };
 
