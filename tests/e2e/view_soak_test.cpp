@@ -45,7 +45,7 @@ class Chance {
   }
   /// The next method, the walk or the variant beside it, and long enough for solvers to begin.
   std::string part() {
-    return took(72, "key m\nresize 480 900\nkey d\nkey c\nwait 2\nclick @right\nwait 2\nclick @right-" +
+    return took(72, "key m\nresize 480 1100\nkey d\nkey c\nwait 2\nclick @right\nwait 2\nclick @right-" +
                         oneOf({"truth-walk", "variant"}) + "\nwait 40\nresize 480 400\n");
   }
   /// Nothing moves by itself any more.
@@ -90,7 +90,7 @@ class Chance {
 /// A list of input events that stands for about so many frames. It writes third1.png and third2.png after
 /// each third.
 std::string randomScript(int frames) {
-  std::string script = "wait rest\nclick @section-light\nclick @section-compare\nwait 2\n";
+  std::string script = "wait rest\nresize 480 1100\nclick @section-light\nclick @section-compare\nwait 2\n";
   Chance chance;
   for (int part = 0, picture = 0, third = 0; chance.frames < frames;) {
     if (chance.frames / kPart > part) {
@@ -110,7 +110,7 @@ std::string randomScript(int frames) {
 class ViewSoak : public testing::Test {
  protected:
   void SetUp() override {
-    display_.emplace(XDisplay::start(1024, 960));
+    display_.emplace(XDisplay::start(800, 1200));
     if (!display_->has_value()) GTEST_SKIP() << "Xvfb is not installed";
     scratch_.write("tetra.off",
                    "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
