@@ -47,7 +47,7 @@ std::optional<Ruler> rulerOf(const Object& subject, const CameraFrame& camera) {
 }
 
 void drawRuler(PanelContext& context, ImDrawList& draw, const Area& area) {
-  const Scene& scene = context.session.state().scene;
+  const Scene& scene = context.view.shownScene(context.session.state());
   const Object& subject = scene.objects[subjectIndex(scene)];
   const CameraFrame camera =
       cameraFrame(scene, std::max(1, int(area.size().x)), std::max(1, int(area.size().y)));

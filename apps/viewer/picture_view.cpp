@@ -57,24 +57,25 @@ double meanOf(const Image& image) {
 
 }  // namespace
 
-bool LivePicture::update(const ViewState& state, glm::ivec2 pixels, double scale, bool rest) {
-  std::string key = pictureKey(state, pixels);
-  const double wanted = rest ? 1 : scale;
-  const bool changed = key != key_;
-  if (changed) {
-    volumeTexture_.reset();
-    volumeImage_.reset();
-    passes_ = 0;
-  }
-  updateVolume(state, pixels, rest);
+bool LivePicture::update(const ViewState& state, const Wish& wish) {
+  key_ = pictureKey(state, wish.pixels);
+  updateVolume(state, wish);
+  // A layer shows what the drawn method is made from.
+  if (showsVolume_ && drawn_ && state.inspect.layer == Inspect::Layer::kPicture) return false;
+  return drawNow(state, wish);
+}
+
+bool LivePicture::drawNow(const ViewState& state, const Wish& wish) {
+  const double wanted = wish.rest ? 1 : wish.scale;
+  const bool changed = key_ != drawnKey_;
   if (!changed && drawn_ && drawnScale_ >= wanted) return false;
   prepare();
   RenderSettings settings = state.settings;
   if (settings.method == Method::kVolume) settings.method = Method::kMatched;
   settings.aovs.clear();
-  settings.width = std::max(1, int(std::lround(pixels.x * wanted)));
-  settings.height = std::max(1, int(std::lround(pixels.y * wanted)));
-  key_ = std::move(key);
+  settings.width = std::max(1, int(std::lround(wish.pixels.x * wanted)));
+  settings.height = std::max(1, int(std::lround(wish.pixels.y * wanted)));
+  drawnKey_ = key_;
   drawnScale_ = wanted;
   try {
     renderer_->draw(state.scene, settings);
@@ -94,7 +95,7 @@ const std::optional<SeenSamples>& LivePicture::samplesAt(const glm::dvec2& place
   const RenderSettings& s = drawnSettings_;
   const glm::ivec2 pixel(std::clamp(int(place.x * s.width), 0, s.width - 1),
                          std::clamp(int((1 - place.y) * s.height), 0, s.height - 1));
-  std::string key = fmt::format("{} {} {} {} {}", key_, drawnScale_, pixel.x, pixel.y, light);
+  std::string key = fmt::format("{} {} {} {} {}", drawnKey_, drawnScale_, pixel.x, pixel.y, light);
   if (key == seenKey_) return seen_;
   seenKey_ = std::move(key);
   seen_.reset();
@@ -103,42 +104,95 @@ const std::optional<SeenSamples>& LivePicture::samplesAt(const glm::dvec2& place
   return seen_;
 }
 
-/// Solves while the picture rests, so that frames have the processor while it moves.
-void LivePicture::updateVolume(const ViewState& state, glm::ivec2 pixels, bool rest) {
+namespace {
+
+/// The same bodies in a picture of the same shape: an older picture may stand for the newest a moment.
+bool alike(const Scene& a, const Scene& b, const Image& picture, glm::ivec2 pixels) {
+  if (a.objects.size() != b.objects.size()) return false;
+  for (size_t i = 0; i < a.objects.size(); ++i)
+    if (a.objects[i].mesh != b.objects[i].mesh) return false;
+  const double wide = double(picture.width()) / picture.height(), now = double(pixels.x) / pixels.y;
+  return std::abs(wide / now - 1) < 0.02;
+}
+
+}  // namespace
+
+/// Whether the volume's newest picture stays on the window while the scene moves on.
+bool LivePicture::keepsUp(const ViewState& state, const Wish& wish) {
+  if (!volumeTexture_) return false;
+  const bool follows = volumePace_.follows(volumeImage_.get(), volumeBehind_, wish.seconds);
+  return follows && alike(volumeScene_, state.scene, *volumeImage_, wish.pixels);
+}
+
+/// Solves for the scene at rest in full, and coarser for one in motion as long as that keeps up.
+void LivePicture::updateVolume(const ViewState& state, const Wish& wish) {
   wantsVolume_ = state.settings.method == Method::kVolume;
-  solving_ = wantsVolume_;
-  if (!wantsVolume_ || !rest) {
+  if (!wantsVolume_) {
     if (volume_) volume_->stop();
+    forgetVolume();
     return;
   }
   if (!volume_) volume_ = std::make_unique<BackgroundVolume>(volumeOptions_);
   RenderSettings settings = state.settings;
-  settings.width = pixels.x;
-  settings.height = pixels.y;
-  volume_->want(state.scene, settings);
+  settings.width = wish.pixels.x;
+  settings.height = wish.pixels.y;
+  volumeBehind_ = volumeKey_ != key_;
+  const bool keeps = keepsUp(state, wish);
+  if (!wish.rest && !keeps) {
+    volume_->stop();
+    forgetVolume();
+    solving_ = true;
+    return;
+  }
+  if (!wish.rest) {
+    settings.width = std::max(8, int(std::lround(wish.pixels.x * volumePace_.share())));
+    settings.height = std::max(8, int(std::lround(wish.pixels.y * volumePace_.share())));
+  }
+  if (wish.rest || volumeBehind_) volume_->want(state.scene, settings, !wish.rest);
   const auto newest = volume_->newest();
-  std::string obstacle = newest ? newest->obstacle : volume_->problem();
-  solving_ = !newest && obstacle.empty();
-  if (!solving_ && obstacle != std::exchange(obstacle_, obstacle) && !obstacle.empty())
+  const bool current = newest && !newest->behind;
+  const std::string obstacle = current ? newest->obstacle : volume_->problem();
+  const bool known = current || !obstacle.empty();
+  if (known && obstacle != std::exchange(obstacle_, obstacle) && !obstacle.empty())
     problem_ = "volume: " + obstacle + "; shown by matched instead";
-  if (!newest || !newest->image || newest->image == volumeImage_) return;
-  volumeImage_ = newest->image;
+  if (newest && newest->image && newest->image != volumeImage_) takeVolume(*newest, state, wish);
+  showsVolume_ = volumeTexture_ && obstacle_.empty() && (current || keeps);
+  solving_ = !(known && wish.rest);
+}
+
+void LivePicture::takeVolume(const BackgroundVolume::Result& newest, const ViewState& state,
+                             const Wish& wish) {
+  volumeImage_ = newest.image;
+  volumeScene_ = newest.scene;
+  passes_ = newest.passes;
   volumeTexture_ = uploaded(*volumeImage_, "volume");
-  passes_ = newest->passes;
+  volumePace_.measured(newest.pictureSeconds, double(volumeImage_->width()) / wish.pixels.x);
+  ViewState shown;
+  shown.scene = newest.scene;
+  shown.settings = state.settings;
+  volumeKey_ = pictureKey(shown, wish.pixels);
+}
+
+void LivePicture::forgetVolume() {
+  volumeTexture_.reset();
+  volumeImage_.reset();
+  volumeKey_.clear();
+  passes_ = 0;
+  solving_ = showsVolume_ = volumeBehind_ = false;
 }
 
 const gpu::Texture& LivePicture::texture() const {
-  return volumeTexture_ ? *volumeTexture_ : RendererTextures::picture(*renderer_);
+  return showsVolume_ ? *volumeTexture_ : RendererTextures::picture(*renderer_);
 }
 
 std::string LivePicture::label() const {
   if (!wantsVolume_) return "";
-  if (volumeTexture_) return fmt::format("volume, pass {}", passes_);
+  if (showsVolume_) return solving_ || passes_ == 0 ? "volume" : fmt::format("volume, pass {}", passes_);
   return solving_ ? "matched, until volume is solved" : "matched, because volume cannot be solved";
 }
 
 std::string LivePicture::key() const {
-  return fmt::format("{} {}", key_, fmt::ptr(volumeImage_.get()));
+  return fmt::format("{} {}", key_, fmt::ptr(image().get()));
 }
 
 void LivePicture::forget() {
@@ -147,9 +201,9 @@ void LivePicture::forget() {
 }
 
 void LivePicture::restart() {
-  volumeTexture_.reset();
-  volumeImage_.reset();
+  forgetVolume();
   key_.clear();
+  drawnKey_.clear();
   seenKey_.clear();
   seen_.reset();
   drawn_ = false;
@@ -181,7 +235,7 @@ void PictureView::warmUp(const gpu::Framebuffer& target, const Area& area) {
   const glm::ivec2 pixels(area.size());
   if (pixels.x <= 0 || pixels.y <= 0) return;
   const ViewState state = defaultView(loadObject("stone"));
-  live_.update(state, pixels, pace_.scale(), false);
+  live_.update(state, {.pixels = pixels, .scale = pace_.scale()});
   show(target, area, state);
   live_.restart();
 }
@@ -199,8 +253,9 @@ void PictureView::update(const Request& request) {
   if (key != key_ || request.moving) changedAt_ = request.seconds;
   key_ = std::move(key);
   const bool rest = !request.moving && request.seconds - changedAt_ >= kRestAfter;
-  drew_ = live_.update(state, request.pixels, pace_.scale(), rest);
-  if (compares(Source::kVariant)) drew_ |= variant_.update(variant, request.pixels, pace_.scale(), rest);
+  const LivePicture::Wish wish{request.pixels, pace_.scale(), rest, request.seconds};
+  drew_ = live_.update(state, wish);
+  if (compares(Source::kVariant)) drew_ |= variant_.update(variant, wish);
   const bool whole = live_.whole() && (!compares(Source::kVariant) || variant_.whole());
   if (!rest || !whole) restedAt_ = 1e300;
   if (rest && whole) restedAt_ = std::min(restedAt_, request.seconds);
@@ -377,12 +432,17 @@ void PictureView::show(const gpu::Framebuffer& target, const Area& area, const V
     frame.right = textureOf(state.compare.right);
   }
   frame.layer = layerOf(state);
-  if (state.ruler) frame.grid = &state.scene;
+  if (state.ruler) frame.grid = &shownScene(state);
   display_.draw(target, frame);
   if (!seen || !*seen || (*seen)->object >= state.scene.objects.size()) return;
   Display::Frame inset{.area = rect(mapInset(area)), .left = frame.left};
   inset.layer = mapLayer(state, (*seen)->object, 0);
   if (inset.layer) display_.draw(target, inset);
+}
+
+const Scene& PictureView::shownScene(const ViewState& state) const {
+  const Scene* older = live_.shownScene();
+  return older ? *older : state.scene;
 }
 
 Area mapInset(const Area& picture) {

@@ -10,6 +10,7 @@
 #include "area.h"
 #include "display.h"
 #include "lychnite/app/background.h"
+#include "lychnite/app/follow_pace.h"
 #include "lychnite/app/view_state.h"
 #include "lychnite/image/metrics.h"
 #include "lychnite/technique/renderer.h"
@@ -18,15 +19,21 @@
 
 namespace lychnite::viewer {
 
-/// One picture that follows its scene: coarse while things move, whole at rest. `volume` is solved behind it,
-/// and `matched` stands in until it is there.
+/// One picture that follows its scene: coarse while things move, whole at rest. `volume` is solved behind it;
+/// its newest picture is shown as long as it keeps up, and `matched` stands in where it does not.
 class LivePicture {
  public:
   LivePicture(const RendererOptions& options, const BackgroundVolume::Options& volume)
       : options_(options), volumeOptions_(volume) {}
 
-  /// Draws what changed; `rest` asks for the full resolution. True when something was drawn.
-  bool update(const ViewState& state, glm::ivec2 pixels, double scale, bool rest);
+  struct Wish {
+    glm::ivec2 pixels{0};
+    double scale = 1;  ///< of a picture drawn in motion
+    bool rest = false;
+    double seconds = 0;  ///< now
+  };
+  /// Draws what changed; rest asks for the full resolution. True when something was drawn.
+  bool update(const ViewState& state, const Wish& wish);
   /// Makes the renderer (compiles its shaders) before it is needed.
   void prepare() {
     if (!renderer_) renderer_ = std::make_unique<Renderer>(options_);
@@ -35,12 +42,14 @@ class LivePicture {
   void forget();
   void restart();
   bool ready() const { return drawn_; }
-  bool whole() const { return ready() && drawnScale_ >= 1; }
-  /// What is asked for is not a stand-in's picture any more.
+  bool whole() const { return ready() && (showsVolume_ || drawnScale_ >= 1); }
+  /// What is asked for is not a stand-in's picture any more, nor an older one.
   bool complete() const { return whole() && !solving_; }
+  /// The scene as the picture shows it where that is an older one.
+  const Scene* shownScene() const { return showsVolume_ ? &volumeScene_ : nullptr; }
   const gpu::Texture& texture() const;
   /// The same on the processor, where it is there anyway.
-  const std::shared_ptr<const Image>& image() const { return volumeImage_; }
+  std::shared_ptr<const Image> image() const { return showsVolume_ ? volumeImage_ : nullptr; }
   /// "volume, pass 3", or what stands in for it; "" for a real-time method.
   std::string label() const;
   const Renderer& renderer() const { return *renderer_; }
@@ -54,7 +63,11 @@ class LivePicture {
   std::string key() const;
 
  private:
-  void updateVolume(const ViewState& state, glm::ivec2 pixels, bool rest);
+  void updateVolume(const ViewState& state, const Wish& wish);
+  void forgetVolume();
+  void takeVolume(const BackgroundVolume::Result& newest, const ViewState& state, const Wish& wish);
+  bool keepsUp(const ViewState& state, const Wish& wish);
+  bool drawNow(const ViewState& state, const Wish& wish);
 
   RendererOptions options_;
   BackgroundVolume::Options volumeOptions_;
@@ -62,13 +75,17 @@ class LivePicture {
   std::unique_ptr<BackgroundVolume> volume_;
   std::optional<gpu::Texture> volumeTexture_;
   std::shared_ptr<const Image> volumeImage_;
+  Scene volumeScene_;
+  FollowPace volumePace_;
   int passes_ = 0;
   Scene drawnScene_;
   RenderSettings drawnSettings_;
   std::string seenKey_;
   std::optional<SeenSamples> seen_;
-  std::string key_, problem_, obstacle_;
+  std::string key_, drawnKey_, volumeKey_, problem_, obstacle_;
   bool drawn_ = false, solving_ = false, wantsVolume_ = false;
+  bool showsVolume_ = false;   ///< and not what is drawn
+  bool volumeBehind_ = false;  ///< the volume's picture is of an older scene
   double drawnScale_ = 0;
 };
 
@@ -111,6 +128,8 @@ class PictureView {
   void show(const gpu::Framebuffer& target, const Area& area, const ViewState& state);
 
   bool ready() const { return live_.ready(); }
+  /// The scene as the picture shows it: a moment older where `volume` follows one in motion.
+  const Scene& shownScene(const ViewState& state) const;
   /// All that is asked for is there at full resolution (the walk: a first picture of it).
   bool atRest() const { return atRest_; }
   /// There is a picture of that side, be it an older one.

@@ -1,5 +1,7 @@
 #include <tbb/task_arena.h>
 
+#include <chrono>
+
 #include "app/refiner.h"
 #include "lychnite/app/background.h"
 #include "lychnite/volume/volume.h"
@@ -28,16 +30,22 @@ struct BackgroundVolume::Impl {
 void BackgroundVolume::Impl::refine(const RefinerJob& job, const VolumeRefiner::Ticket& ticket) {
   const RenderSettings& s = job.settings;
   if (std::string obstacle = solver.obstacle(job.scene); !obstacle.empty()) {
-    ticket.publish({.image = nullptr, .passes = 0, .obstacle = std::move(obstacle)});
+    ticket.publish({.obstacle = std::move(obstacle), .scene = job.scene});
     return;
   }
   const Progress progress([&](const Progress::Update&) { return ticket.valid(); });
   solver.update(job.scene, {.cells = s.cells, .collisions = s.collisions, .seed = s.seed}, progress);
   while (ticket.valid()) {
+    const auto begun = std::chrono::steady_clock::now();
     auto image = std::make_shared<const Image>(solver.picture(s, progress));
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
     const int passes = solver.stats().passes;
-    if (!ticket.publish({.image = std::move(image), .passes = passes, .obstacle = ""})) return;
-    if (passes >= most || job.scene.lights.empty()) return;
+    if (!ticket.publish({.image = std::move(image),
+                         .passes = passes,
+                         .scene = job.scene,
+                         .pictureSeconds = took.count()}))
+      return;
+    if (job.finishes || passes >= most || job.scene.lights.empty()) return;
     solver.refine(progress);
   }
 }
@@ -45,11 +53,14 @@ void BackgroundVolume::Impl::refine(const RefinerJob& job, const VolumeRefiner::
 BackgroundVolume::BackgroundVolume(const Options& options) : impl_(std::make_unique<Impl>(options)) {}
 BackgroundVolume::~BackgroundVolume() = default;
 
-void BackgroundVolume::want(const Scene& scene, const RenderSettings& settings) {
+void BackgroundVolume::want(const Scene& scene, const RenderSettings& settings, bool moving) {
   RenderSettings own = settings;
   own.method = Method::kVolume;
   own.aovs.clear();
-  impl_->refiner.want(makeJob(scene, own));
+  RefinerJob job = makeJob(scene, own);
+  job.keeps = true;
+  job.finishes = moving;
+  impl_->refiner.want(std::move(job));
 }
 
 void BackgroundVolume::stop() {
@@ -57,7 +68,10 @@ void BackgroundVolume::stop() {
 }
 
 std::optional<BackgroundVolume::Result> BackgroundVolume::newest() const {
-  return impl_->refiner.newest();
+  bool behind = false;
+  auto result = impl_->refiner.newest(behind);
+  if (result) result->behind = behind;
+  return result;
 }
 
 std::string BackgroundVolume::problem() const {

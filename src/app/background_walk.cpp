@@ -33,7 +33,7 @@ RefinerJob makeJob(const Scene& scene, const RenderSettings& s) {
                                                      componentsName(s.components), methodName(s.method),
                                                      profileName(s.profile), s.cells, s.collisions);
   for (const Object& object : scene.objects) key += fmt::format(" {}", fmt::ptr(object.mesh.get()));
-  return {scene, s, std::move(key)};
+  return {.scene = scene, .settings = s, .key = std::move(key)};
 }
 
 namespace {

@@ -20,6 +20,8 @@ struct RefinerJob {
   Scene scene;
   RenderSettings settings;
   std::string key;
+  bool keeps = false;     ///< the result that is there stays until this job has one
+  bool finishes = false;  ///< goes on when another is wanted meanwhile; only stop() ends it
 };
 RefinerJob makeJob(const Scene& scene, const RenderSettings& settings);
 
@@ -31,20 +33,23 @@ class Refiner {
   /// Whether the job in hand is still the wanted one, and where its results go.
   class Ticket {
    public:
-    bool valid() const { return refiner_.version_ == version_; }
+    bool valid() const { return finishes_ ? refiner_.stopped_ <= version_ : refiner_.version_ == version_; }
     /// False when nobody wants it any more.
     bool publish(Result result) const {
       const std::lock_guard lock(refiner_.mutex_);
       if (!valid()) return false;
       refiner_.result_ = std::move(result);
+      refiner_.resultVersion_ = version_;
       return true;
     }
 
    private:
     friend class Refiner;
-    Ticket(Refiner& refiner, uint64_t version) : refiner_(refiner), version_(version) {}
+    Ticket(Refiner& refiner, uint64_t version, bool finishes)
+        : refiner_(refiner), version_(version), finishes_(finishes) {}
     Refiner& refiner_;
     uint64_t version_;
+    bool finishes_;
   };
   /// Runs on the thread for each job; returns when the job is done or its ticket no longer valid. What it
   /// throws becomes the problem().
@@ -63,9 +68,9 @@ class Refiner {
   void want(RefinerJob job) {
     {
       const std::lock_guard lock(mutex_);
-      if (wanted_ && wanted_->key == job.key) return;
+      if (wanted_ && wanted_->key == job.key && wanted_->finishes == job.finishes) return;
       wanted_ = std::move(job);
-      forget();
+      forget(wanted_->keeps);
     }
     wake_.notify_all();
   }
@@ -73,11 +78,18 @@ class Refiner {
     const std::lock_guard lock(mutex_);
     if (!wanted_) return;
     wanted_.reset();
-    forget();
+    forget(false);
+    stopped_ = version_.load();
     wake_.notify_all();
   }
   std::optional<Result> newest() const {
     const std::lock_guard lock(mutex_);
+    return result_;
+  }
+  /// `behind`: it is an earlier job's, kept.
+  std::optional<Result> newest(bool& behind) const {
+    const std::lock_guard lock(mutex_);
+    behind = resultVersion_ != version_;
     return result_;
   }
   std::string problem() const {
@@ -86,8 +98,8 @@ class Refiner {
   }
 
  private:
-  void forget() {
-    result_.reset();
+  void forget(bool keeps) {
+    if (!keeps) result_.reset();
     problem_.clear();
     ++version_;
   }
@@ -105,7 +117,7 @@ class Refiner {
         job = *wanted_;
       }
       try {
-        work_(job, Ticket(*this, done));
+        work_(job, Ticket(*this, done, job.finishes));
       } catch (const std::exception& error) {
         const std::lock_guard lock(mutex_);
         if (version_ == done) problem_ = error.what();
@@ -119,7 +131,8 @@ class Refiner {
   std::optional<RefinerJob> wanted_;
   std::optional<Result> result_;
   std::string problem_;
-  std::atomic<uint64_t> version_{0};
+  uint64_t resultVersion_ = 0;
+  std::atomic<uint64_t> version_{0}, stopped_{0};
   std::jthread thread_;  // last: it uses the members above
 };
 

@@ -63,7 +63,10 @@ class BackgroundVolume {
   struct Result {
     std::shared_ptr<const Image> image;  ///< null where there is an obstacle
     int passes = 0;                      ///< of photons in it
-    std::string obstacle;                ///< why the scene has no inside to solve in, see VolumeSolver
+    std::string obstacle{};              ///< why the scene has no inside to solve in, see VolumeSolver
+    Scene scene{};                       ///< that it was made of
+    double pictureSeconds = 0;           ///< the picture alone, without what was solved for it
+    bool behind = false;                 ///< another scene is wanted by now
   };
 
   struct Options {
@@ -76,8 +79,10 @@ class BackgroundVolume {
   BackgroundVolume(const BackgroundVolume&) = delete;
   BackgroundVolume& operator=(const BackgroundVolume&) = delete;
 
-  /// As BackgroundWalk's.
-  void want(const Scene& scene, const RenderSettings& settings);
+  /// As BackgroundWalk's, but that the newest picture stays, as one that is behind, until the first of what
+  /// is wanted now. `moving`: one picture only, which is finished when another scene is wanted meanwhile, so
+  /// that there are pictures of a scene that changes all the time.
+  void want(const Scene& scene, const RenderSettings& settings, bool moving = false);
   void stop();
   std::optional<Result> newest() const;
   std::string problem() const;

@@ -23,7 +23,7 @@ RenderSettings small() {
 BackgroundVolume::Result after(const BackgroundVolume& volume, int passes) {
   while (volume.problem().empty()) {
     const auto newest = volume.newest();
-    if (newest && (newest->passes >= passes || !newest->obstacle.empty())) return *newest;
+    if (newest && !newest->behind && (newest->passes >= passes || !newest->obstacle.empty())) return *newest;
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   return {};
@@ -51,6 +51,34 @@ TEST(BackgroundVolume, ACameraThatMovedKeepsThePasses) {
   const auto moved = after(volume, 1);
   ASSERT_TRUE(moved.image) << volume.problem();
   EXPECT_EQ(moved.passes, 3);
+}
+
+TEST(BackgroundVolume, PicturesOfAMovingSceneAreFinished) {
+  BackgroundVolume volume({.threads = 1, .yields = false});
+  Scene scene = glowing();
+  const auto turn = [&] {
+    std::get<ParallelLight>(scene.lights[0]).azimuth += 1;
+    volume.want(scene, small(), true);
+  };
+  // Each wish comes long before the picture of the one before.
+  std::shared_ptr<const Image> last;
+  for (int pictures = 0; pictures < 3;) {
+    turn();
+    const auto newest = volume.newest();
+    ASSERT_EQ(volume.problem(), "");
+    if (newest && newest->image && newest->image != last) {
+      last = newest->image;
+      ++pictures;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  // The last one is of the last wish, alone, and makes no passes.
+  while (volume.newest()->behind) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  EXPECT_EQ(std::get<ParallelLight>(volume.newest()->scene.lights[0]).azimuth,
+            std::get<ParallelLight>(scene.lights[0]).azimuth);
+  EXPECT_EQ(volume.newest()->passes, 0);
+  volume.stop();
+  EXPECT_FALSE(volume.newest());
 }
 
 TEST(BackgroundVolume, AnOpenMeshIsAnObstacle) {
