@@ -43,13 +43,13 @@ Smoother::Response twice(double width) {
   };
 }
 
-/// What each half differs from the beams by, as it is and smoothed by each width.
+/// What each half differs from what is known without noise, as it is and smoothed by each width.
 struct Residuals {
   Field raw[2];
   std::vector<Field> smooth[2];
 };
 
-Residuals residualsOf(const Smoother& smoother, const NodeEstimate& estimate) {
+Residuals residualsOf(const Smoother& smoother, const NodeEstimate& estimate, const Field& base) {
   const double least = leastWidth(estimate.photons);
   std::vector<Smoother::Filter> widths;
   for (size_t w = 0; w < kWidths; ++w)
@@ -57,7 +57,7 @@ Residuals residualsOf(const Smoother& smoother, const NodeEstimate& estimate) {
   Residuals result;
   for (size_t half : {0, 1}) {
     result.raw[half] = estimate.half[half];
-    for (size_t i = 0; i < estimate.beam.size(); ++i) result.raw[half][i] -= estimate.beam[i];
+    for (size_t i = 0; i < base.size(); ++i) result.raw[half][i] -= base[i];
   }
   auto out = smoother.filtered({{result.raw[0], widths}, {result.raw[1], widths}});
   for (size_t half : {0, 1}) result.smooth[half] = std::move(out[half]);
@@ -128,16 +128,20 @@ Field choose(const Smoother& smoother, const Surface& surface, const Field& erro
   return std::move(blended[0][0]);
 }
 
+struct Base {
+  Field once, again;  ///< light that enters for the first time; light that left before
+};
+
 /// What is known without noise: a half-space's response below the cells, the beams above them.
-Field baseOf(const Smoother& smoother, const NodeEstimate& estimate, const Smoother::Response& response,
-             double width) {
+Base baseOf(const Smoother& smoother, const NodeEstimate& estimate, const Smoother::Response& response,
+            double width) {
   const auto coarse = twice(width);
   const auto fine = [&](double q, int c) { return (1 - coarse(q, c)) * response(q, c); };
   const auto out = smoother.filtered({{estimate.beam, {smoother.filter(coarse)}},
                                       {estimate.entering, {smoother.filter(fine)}},
                                       {estimate.again, {smoother.filter(gaussian(kAgainWidth))}}});
-  Field base = out[0][0];
-  for (size_t i = 0; i < base.size(); ++i) base[i] += out[1][0][i] + out[2][0][i];
+  Base base{out[0][0], out[2][0]};
+  for (size_t i = 0; i < base.once.size(); ++i) base.once[i] += out[1][0][i];
   return base;
 }
 
@@ -145,9 +149,11 @@ Field baseOf(const Smoother& smoother, const NodeEstimate& estimate, const Smoot
 
 NodeFlux cleaned(const Smoother& smoother, const Surface& surface, const NodeEstimate& estimate,
                  const Smoother::Response& response) {
-  NodeFlux result{baseOf(smoother, estimate, response, kBeamWidth), {}};
+  const Base base = baseOf(smoother, estimate, response, kBeamWidth);
+  NodeFlux result{base.once, {}};
+  for (size_t i = 0; i < base.again.size(); ++i) result.flux[i] += base.again[i];
   if (estimate.half[0].empty()) return result;
-  const Residuals residuals = residualsOf(smoother, estimate);
+  const Residuals residuals = residualsOf(smoother, estimate, base.once);
   const Field share =
       choose(smoother, surface, sumsAround(surface.grid(), surface, squareErrors(surface, residuals)));
   const auto& nodes = surface.nodes();
@@ -175,7 +181,7 @@ std::vector<Lanes> cleanedFirst(const Smoother& smoother, const NodeEstimate& es
   if (!known.half[0].empty())
     for (size_t i = 0; i < known.beam.size(); ++i)
       known.beam[i] = 0.5f * (known.half[0][i] + known.half[1][i]);
-  return baseOf(smoother, known, response, leastWidth(std::max(kBeams, estimate.photons)));
+  return baseOf(smoother, known, response, leastWidth(std::max(kBeams, estimate.photons))).once;
 }
 
 }  // namespace lychnite::volume
