@@ -82,7 +82,8 @@ void drawFileSection(PanelContext& context) {
   pictureRow(context);
   if (session.pictures().busy()) {
     ImGui::ProgressBar(float(session.pictures().fraction()), {-1, 0});
-    if (context.ui.button("Cancel picture", "")) session.pictures().cancel();
+    if (context.ui.button("Cancel picture", "Nothing is written then, and pictures that wait are dropped."))
+      session.pictures().cancel();
   }
 }
 

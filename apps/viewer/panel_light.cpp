@@ -64,12 +64,13 @@ void drawList(PanelContext& context, Scene& scene) {
                           names))
       controls.light = size_t(chosen);
   }
-  if (context.ui.button("Add light", "", scene.lights.size() < 8)) {
+  if (context.ui.button("Add light", "Up to eight; each has a light-space map of its own.",
+                        scene.lights.size() < 8)) {
     scene.lights.push_back(ParallelLight{.azimuth = 60, .elevation = 40, .irradiance = Rgb(1)});
     controls.light = scene.lights.size() - 1;
   }
   ImGui::SameLine();
-  if (context.ui.button("Remove light", "", !scene.lights.empty())) {
+  if (context.ui.button("Remove light", "The chosen one. Ctrl+Z brings it back.", !scene.lights.empty())) {
     scene.lights.erase(scene.lights.begin() + ptrdiff_t(controls.light));
     controls.light = controls.light > 0 ? controls.light - 1 : 0;
   }

@@ -93,30 +93,38 @@ void drawVariant(PanelContext& context) {
   Variant& variant = state.variant;
   Ui& ui = context.ui;
   ui.note("What the variant does differently:");
-  if (own(ui, "another method", "", variant.method, Method::kAdaptive)) {
+  if (own(ui, "another method", "Another way to find the light, with all else the same.", variant.method,
+          Method::kAdaptive)) {
     int index = indexOf(liveMethods(), *variant.method);
-    if (ui.choice("Its method", "", index, methodNames())) variant.method = liveMethods()[size_t(index)];
+    if (ui.choice("Its method", "As Method under Picture.", index, methodNames()))
+      variant.method = liveMethods()[size_t(index)];
   }
-  if (own(ui, "other samples", "", variant.samples, 128))
-    ui.slider("Its samples", "", *variant.samples, 8, 128);
-  if (own(ui, "another profile", "", variant.profile, ProfileKind::kBetterDipole)) {
+  if (own(ui, "other samples", "More or fewer samples a pixel: what is left of the difference is noise.",
+          variant.samples, 128))
+    ui.slider("Its samples", "Of multiple scattering at each pixel.", *variant.samples, 8, 128);
+  if (own(ui, "another profile", "Another law of how light spreads, with all else the same.", variant.profile,
+          ProfileKind::kBetterDipole)) {
     int index = indexOf(profiles(), *variant.profile);
-    if (ui.choice("Its profile", "", index, profileNames())) variant.profile = profiles()[size_t(index)];
+    if (ui.choice("Its profile", "As Profile under Picture.", index, profileNames()))
+      variant.profile = profiles()[size_t(index)];
   }
   const Object& subject = state.scene.objects[subjectIndex(state.scene)];
-  if (own(ui, "another material", "", variant.material, subject.material)) {
+  if (own(ui, "another material", "Another medium of the library under the same coat.", variant.material,
+          subject.material)) {
     std::vector<std::string> names;
     int index = 0;
     for (const NamedCoefficients& known : materialLibrary()) {
       if (known.name == variant.material->name) index = int(names.size());
       names.push_back(known.name);
     }
-    if (ui.choice("Its material", "", index, names) || variant.material->name == "custom") {
+    if (ui.choice("Its material", "Measured coefficients, as in the library above.", index, names) ||
+        variant.material->name == "custom") {
       variant.material->name = names[size_t(index)];
       variant.material->medium = materialLibrary()[size_t(index)].coefficients;
     }
   }
-  if (own(ui, "another size", "", variant.size, 5 * subject.size))
+  if (own(ui, "another size", "The same object larger or smaller: only the light changes.", variant.size,
+          5 * subject.size))
     ui.slider("Its size, mm", "The camera keeps the object's size on the screen.", *variant.size, 0.1, 10000,
               "%.4g", true);
 }
@@ -215,7 +223,9 @@ void drawCompareSection(PanelContext& context) {
     compare.mode = CompareView::Mode(mode);
   if (compare.mode == CompareView::Mode::kOff) return;
   int left = int(compare.left), right = int(compare.right);
-  if (context.ui.choice("Left", "", left, sourceNames())) compare.left = CompareView::Source(left);
+  if (context.ui.choice("Left", "What is on the left of the line; in a difference, what is judged.", left,
+                        sourceNames()))
+    compare.left = CompareView::Source(left);
   if (context.ui.choice(
           "Right", "Truth: Monte Carlo light transport, refined on the processor while the picture rests.",
           right, sourceNames()))
@@ -240,7 +250,8 @@ void drawInspectSection(PanelContext& context) {
     state.inspect.layer = Inspect::Layer(layer);
   if (state.inspect.layer == Inspect::Layer::kMap || state.inspect.samples) {
     int shown = state.inspect.light + 1;
-    if (context.ui.slider("Of light", "", shown, 1, std::max(1, int(state.scene.lights.size()))))
+    if (context.ui.slider("Of light", "Each light has a map of its own.", shown, 1,
+                          std::max(1, int(state.scene.lights.size()))))
       state.inspect.light = shown - 1;
   }
   if (state.inspect.layer == Inspect::Layer::kMap)

@@ -52,21 +52,23 @@ void drawScale(PanelContext& context, const Area& track, double size) {
   draw.AddRectFilled({float(track.low.x), y - 2 * s}, {x(size), y + 2 * s},
                      ImGui::GetColorU32(ImGuiCol_SliderGrab), 2 * s);
   const float font = ImGui::GetFontSize() * 0.86f;
-  const bool narrow = track.size().x < 600 * context.ui.scale();
+  // Words that would touch the ones before are left out.
+  const auto write = [&](const char* words, float at, float from, float& end) {
+    const float width = ImGui::CalcTextSize(words).x * 0.86f;
+    const float left = std::min(at - width / 2, float(track.high.x) + 14 * s - width);
+    if (left < end + 8 * s) return;
+    end = left + width;
+    draw.AddText(ImGui::GetFont(), font, {left, from}, faint, words);
+  };
+  float lengthsEnd = 0, namesEnd = 0;
   for (double decade = kLeast; decade <= kMost * 1.001; decade *= 10) {
     for (int i = 1; i < 10 && decade * i <= kMost * 1.001; ++i)
       draw.AddLine({x(decade * i), y + 5 * s}, {x(decade * i), y + (i == 1 ? 10 : 7) * s}, line, s);
-    if (narrow && decade > kLeast && decade < 0.5 * kMost) continue;
-    const std::string text = formatLength(decade);
-    const float width = ImGui::CalcTextSize(text.c_str()).x * 0.86f;
-    draw.AddText(ImGui::GetFont(), font, {x(decade) - width / 2, y + 11 * s}, faint, text.c_str());
+    write(formatLength(decade).c_str(), x(decade), y + 11 * s, lengthsEnd);
   }
   for (const Familiar& familiar : kFamiliar) {
-    if (narrow) break;
-    const float width = ImGui::CalcTextSize(familiar.name).x * 0.86f;
     draw.AddCircleFilled({x(familiar.mm), y - 8 * s}, 1.6f * s, faint);
-    const float left = std::min(x(familiar.mm) - width / 2, float(track.high.x) + 14 * s - width);
-    draw.AddText(ImGui::GetFont(), font, {left, y - 25 * s}, faint, familiar.name);
+    write(familiar.name, x(familiar.mm), y - 25 * s, namesEnd);
   }
   draw.AddCircleFilled({x(size), y}, 7 * s, ImGui::GetColorU32(ImGuiCol_SliderGrabActive), 24);
 }
