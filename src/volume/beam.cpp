@@ -54,7 +54,7 @@ class Beamer {
   };
   const Body& body() const { return *world_.bodies[size_t(object_)]; }
   void enterLayer(Beam& beam, const Surface::Sample& sample, float cosine, float& length);
-  void correct(float cosine, float length);
+  glm::vec3 albedoAt(const glm::vec3& depth) const;
   void march(Beam& beam, float length);
   void collide(const glm::vec3& p, const glm::vec3& flux);
   void deposit(uint32_t cell, const glm::vec3& flux);
@@ -71,7 +71,8 @@ class Beamer {
   int shells_ = 1;
   float entered_ = 0;               ///< flux of the beam
   glm::vec3 sigma_{0}, albedo_{0};  ///< of the reduced medium, local units
-  glm::vec3 scattering_{0};         ///< share of what collides that becomes a source
+  // Of the slab that stands for the object here, local units.
+  float thickness_ = 0, depth_ = 0, descent_ = 0;
 };
 
 /// Light of `flux` that is refracted along `direction` at a point of `sample`; `number` of the beam, `looks`
@@ -98,7 +99,9 @@ void Beamer::follow(const RayHit& from, const Surface::Sample& sample, const glm
       const float distance = hit ? hit.distance : std::numeric_limits<float>::infinity();
       for (size_t i = 0; i < looks; ++i)
         look(from, direction, flux / float(looks), distance, number * kTogether + i);
-      correct(-glm::dot(direction, from.normal), length);
+      depth_ = 0;
+      descent_ = -glm::dot(direction, from.normal);
+      thickness_ = std::fmin(length * descent_, in.thickness);
       enterLayer(beam, sample, -glm::dot(direction, from.normal), length);
     }
     march(beam, length);
@@ -111,11 +114,15 @@ void Beamer::follow(const RayHit& from, const Surface::Sample& sample, const glm
   collide(beam.position, beam.flux);
 }
 
-/// Sources of a beam as strong as diffusion needs them to send out what transport does in a slab as thick as
-/// the object is here.
-void Beamer::correct(float cosine, float length) {
-  for (int c = 0; c < 3; ++c)
-    scattering_[c] = albedo_[c] * (1 + body().slabs[c].excess(sigma_[c] * length * cosine, cosine));
+/// Share of what collides at a depth (of each channel) that is a source: as strong as diffusion needs it to
+/// send out what transport does in a slab as thick as the object is here.
+glm::vec3 Beamer::albedoAt(const glm::vec3& depth) const {
+  glm::vec3 result = albedo_;
+  for (int c = 0; c < 3; ++c) {
+    const float nearer = std::fmax(0.0f, std::fmin(depth[c], thickness_ - depth[c]));
+    result[c] *= 1 + body().slabs[c].excess(sigma_[c] * thickness_, sigma_[c] * nearer);
+  }
+  return result;
 }
 
 /// Down to the depth of the centroid under the sample, where the layer's integrals are known.
@@ -125,13 +132,17 @@ void Beamer::enterLayer(Beam& beam, const Surface::Sample& sample, float cosine,
   const float way = std::fmin(length, sample.depth / cosine);
   const double end = double(way * cosine), depth = std::max(end, double(sample.depth));
   const glm::vec3 pass = glm::exp(-sigma_ * way);
-  const glm::vec3 scattered = beam.flux * (1.0f - pass) * scattering_;
+  const glm::vec3 x = glm::max(sigma_ * way, glm::vec3(1e-2f)), through = glm::exp(-x);
+  const glm::vec3 mean =
+      1.0f / x - through / (1.0f - through);  // of the collisions' depths, over the layer's
+  const glm::vec3 albedo = albedoAt(mean * float(end));
+  const glm::vec3 scattered = beam.flux * (1.0f - pass) * albedo;
   glm::vec3 leaving, staying;
   for (int c = 0; c < 3; ++c) {
     const Diffusion& diffusion = body().system.medium().channel[c];
     const double a = double(sigma_[c] / cosine);
-    leaving[c] = beam.flux[c] * scattering_[c] * float(diffusion.beamLeaving(a, end, depth));
-    staying[c] = beam.flux[c] * scattering_[c] * float(diffusion.beamStaying(a, end, depth));
+    leaving[c] = beam.flux[c] * albedo[c] * float(diffusion.beamLeaving(a, end, depth));
+    staying[c] = beam.flux[c] * albedo[c] * float(diffusion.beamStaying(a, end, depth));
   }
   tally_.absorbed += Rgb(beam.flux * (1.0f - pass) - scattered);
   tally_.absorbed += Rgb(scattered - leaving - staying);
@@ -139,6 +150,7 @@ void Beamer::enterLayer(Beam& beam, const Surface::Sample& sample, float cosine,
   deposit(sample.cell, staying);
   beam.flux *= pass;
   beam.position += way * beam.direction;
+  depth_ += way * descent_;
   length -= way;
 }
 
@@ -157,9 +169,11 @@ void Beamer::march(Beam& beam, float length) {
     }
     if (step > kLongest * h && !(grid.clear(beam.position + 0.5f * step * beam.direction) > 0)) step *= 0.5f;
     const glm::vec3 pass = glm::exp(-sigma_ * step);
+    depth_ += 0.5f * step * descent_;
     collide(beam.position + 0.5f * step * beam.direction, beam.flux * (1.0f - pass));
     beam.flux *= pass;
     beam.position += step * beam.direction;
+    depth_ += 0.5f * step * descent_;
     length -= step;
   }
 }
@@ -167,7 +181,7 @@ void Beamer::march(Beam& beam, float length) {
 /// Light that collides at a point becomes a source, through the exit layer if it is near a surface.
 void Beamer::collide(const glm::vec3& p, const glm::vec3& flux) {
   const Surface& surface = body().shape->surface;
-  const glm::vec3 scattered = flux * scattering_;
+  const glm::vec3 scattered = flux * albedoAt(glm::vec3(depth_));
   tally_.absorbed += Rgb(flux - scattered);
   const auto place = surface.place(p);
   if (place.cell == Grid::kNone) {
@@ -218,6 +232,8 @@ bool Beamer::meet(Beam& beam, const RayHit& hit, glm::vec3& onwards) {
   const float R = transport::fresnel(std::fmin(cosI, 1.0f), 1 / body().medium.eta).reflectance;
   tally_.unscattered += Rgb(beam.flux * (1 - R));
   beam.flux *= R;
+  depth_ = descent_ > 0 ? thickness_ : 0;
+  descent_ = -descent_;
   onwards = transport::mirrored(onwards, hit.normal);
   if (largest(beam.flux) > kLeastMirrored * entered_) return true;
   tally_.unscattered += Rgb(beam.flux);

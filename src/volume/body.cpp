@@ -32,6 +32,9 @@ Body::Body(std::shared_ptr<const Shape> which, const RayScene& rays, int object,
                  1 / rays.scene().objects[size_t(object)].size))),
       trustClear(alone) {
   for (int c = 0; c < 3; ++c) slabs[c] = SlabTransport(system.medium().channel[c], double(medium.eta));
+  double volume = 0;
+  for (size_t i = 0; i < shape->grid.size(); ++i) volume += double(shape->grid.cell(i).volume);
+  thickness = float(2 * volume / std::max(1e-12, shape->surface.area()));
 }
 
 }  // namespace lychnite::volume

@@ -38,6 +38,7 @@ struct Body {
   transport::Medium reduced;  ///< isotropic with sigma_sp, per scene unit
   DiffusionSystem system;     ///< local units
   SlabTransport slabs[3];     ///< of the reduced medium's channels
+  float thickness = 1;        ///< of the slab that has as much volume for its surface, local units
   bool trustClear = true;     ///< nothing else can be inside
 };
 

@@ -116,6 +116,8 @@ void Tracer::enter(Photon photon, const RayHit& hit) {
   photon.direction = transport::refracted(photon.direction, hit.normal, eta, cosI, boundary.cosT);
   photon.position = offPoint(hit, photon.direction);
   photon.object = hit.object;
+  photon.descent = boundary.cosT;
+  photon.thickness = std::numeric_limits<float>::infinity();
   shells_ = 1;
   tally_.entered += Rgb(photon.flux);
   fly(photon);
@@ -177,6 +179,8 @@ bool Tracer::advance(Photon& photon, const Medium& medium, float u) {
     }
     tally_.rays += 1;
     const RayHit hit = world_.rays->nearestInside(photon.object, photon.position, photon.direction, far);
+    if (hit && photon.order == 0)
+      photon.thickness = std::fmin(photon.thickness, hit.distance * photon.descent);
     if (!hit && sigma > 0) return collide(photon, medium, -std::log1p(-u) / sigma, glm::vec3(1));
     if (!hit) break;
     ++mirrorings;
@@ -262,6 +266,19 @@ void Tracer::leave(const Photon& photon, const RayHit& hit, const glm::vec3& flu
   waiting_.push_back(out);
 }
 
+/// How much of a source the diffusion equation needs for as much light to leave as transport says.
+glm::vec3 Tracer::strength(const Photon& photon, const Surface::Place& place) const {
+  const Body& in = body(photon);
+  const float depth = place.sample != Grid::kNone
+                          ? place.depth * in.size
+                          : in.clear(photon.position) + float(in.shape->grid.side()) * in.size;
+  const float thickness = std::fmin(photon.thickness, in.thickness * in.size);
+  glm::vec3 result(1);
+  for (int c = 0; c < 3; ++c)
+    result[c] += in.slabs[c].excess(in.reduced.sigma_t[c] * thickness, in.reduced.sigma_t[c] * depth);
+  return result;
+}
+
 /// After the last collision: a part leaves through the layer above the cell's centroid at once, a part is
 /// absorbed in it, the rest is a source of the cell.
 void Tracer::handOver(const Photon& photon) {
@@ -272,13 +289,14 @@ void Tracer::handOver(const Photon& photon) {
     tally_.lost += Rgb(photon.flux);
     return;
   }
-  glm::vec3 leaving(0), staying = photon.flux;
+  const glm::vec3 source = photon.flux * strength(photon, place);
+  glm::vec3 leaving(0), staying = source;
   if (place.sample != Grid::kNone) {
     const double depth = double(surface.samples()[place.sample].depth), z = double(place.depth);
     for (int c = 0; c < 3; ++c) {
       const Diffusion& diffusion = in.system.medium().channel[c];
-      leaving[c] = photon.flux[c] * float(diffusion.leaving(z, depth));
-      staying[c] = photon.flux[c] * float(diffusion.staying(z, depth));
+      leaving[c] = source[c] * float(diffusion.leaving(z, depth));
+      staying[c] = source[c] * float(diffusion.staying(z, depth));
     }
     if (largest(leaving) > 0)
       records_.push_back(

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -47,6 +48,8 @@ struct World {
 struct Photon {
   glm::vec3 position{0}, direction{0};
   glm::vec3 flux{0}, density{1};
+  float descent = 1;                                         ///< cosine of the way in to the normal
+  float thickness = std::numeric_limits<float>::infinity();  ///< of the object where it came in, scene units
   int channel = 0;
   int object = -1;     ///< -1 outside
   int order = 0;       ///< collisions so far
@@ -87,6 +90,7 @@ class Tracer {
   void leave(const Photon& photon, const RayHit& hit, const glm::vec3& flux, float share);
   void outside(Photon photon);
   void handOver(const Photon& photon);
+  glm::vec3 strength(const Photon& photon, const Surface::Place& place) const;
   void separateFirst(const Photon& photon);
   const Body& body(const Photon& photon) const { return *world_.bodies[size_t(photon.object)]; }
 

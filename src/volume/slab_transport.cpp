@@ -11,8 +11,9 @@ namespace lychnite::volume {
 namespace {
 
 constexpr int kCells = 96;
-constexpr int kSteps = 32;      // of an integral over a beam
-constexpr int kDirections = 8;  // of each of the two ranges of cosines: mirrored in full, and not
+constexpr int kSteps = 32;            // of an integral over a beam
+constexpr int kDirections = 8;        // of each of the two ranges of cosines: mirrored in full, and not
+constexpr float kDeepest = 8.0f / 9;  // depth z over 1 + z
 constexpr double kThinnest = 0.05, kThickest = 16;
 
 using Column = std::array<double, kCells>;
@@ -41,9 +42,9 @@ void addDirections(double low, double high, double eta, std::vector<Direction>& 
   }
 }
 
-/// Ends of `count` layers of a slab, thin near its sides.
-double edgeOf(double thickness, int i, int count) {
-  const double x = double(i) / count;
+/// Ends of the layers of a slab, thin near its sides.
+double edgeOf(double thickness, int i) {
+  const double x = double(i) / kCells;
   return thickness * x * x * (3 - 2 * x);
 }
 
@@ -66,6 +67,8 @@ class Slab {
 
   /// Share of the first collisions of a beam, none mirrored, that leaves by the side it came in by.
   double reflected(double cosine) const;
+  /// Share of what is emitted at a depth, in all directions, that leaves by the first side.
+  double leaving(double depth) const;
 
  private:
   /// Shares of light along one direction that pass whole layers.
@@ -79,14 +82,16 @@ class Slab {
   void solve(double albedo);
 
   Column width_;
-  Column leaving_{};  ///< by the first side: share of what each layer emits evenly, in all directions
+  Column middle_;
+  Column leaving_{};             ///< by the first side, of what each layer emits evenly
   std::vector<Column> flights_;  ///< from each layer to each other one
 };
 
 Slab::Slab(double thickness, double albedo, const std::vector<Direction>& directions)
     : flights_(kCells, Column{}) {
   for (int i = 0; i < kCells; ++i)
-    width_[size_t(i)] = edgeOf(thickness, i + 1, kCells) - edgeOf(thickness, i, kCells);
+    width_[size_t(i)] = edgeOf(thickness, i + 1) - edgeOf(thickness, i),
+    middle_[size_t(i)] = 0.5 * (edgeOf(thickness, i + 1) + edgeOf(thickness, i));
   for (const Direction& direction : directions) addFlights(direction);
   solve(albedo);
 }
@@ -154,6 +159,13 @@ double Slab::reflected(double cosine) const {
   return sum;
 }
 
+double Slab::leaving(double depth) const {
+  const auto above = size_t(std::upper_bound(middle_.begin(), middle_.end(), depth) - middle_.begin());
+  const size_t i = std::clamp(above, size_t(1), size_t(kCells - 1));
+  const double x = (depth - middle_[i - 1]) / (middle_[i] - middle_[i - 1]);
+  return leaving_[i - 1] + x * (leaving_[i] - leaving_[i - 1]);
+}
+
 /// Share of a source at depth z of a slab that diffusion lets out of its first side.
 double diffusionLeaving(const Diffusion& d, double z, double thickness) {
   const double e = std::exp(-2 * d.k * thickness);
@@ -163,58 +175,47 @@ double diffusionLeaving(const Diffusion& d, double z, double thickness) {
   return std::exp(-d.k * z) * ((1 - rest) / d.k + d.zb * (1 + rest)) / (u0 + d.zb * slope);
 }
 
+double depthOf(int i) {
+  const double x = double(kDeepest) * i / (SlabTransport::kDepths - 1);
+  return x / (1 - x);
+}
+
 double thicknessOf(int i) {
   return kThinnest * std::pow(kThickest / kThinnest, double(i) / (SlabTransport::kThicknesses - 1));
 }
 
-/// Shares of a beam's first collisions, none mirrored, that diffusion lets out of the two sides of a slab.
-struct Diffused {
-  double collided = 0, near = 0, far = 0;
-  Diffused(const Diffusion& unit, double thickness, double cosine) {
-    for (int i = 0; i < kSteps; ++i) {
-      const double a = edgeOf(thickness, i, kSteps), b = edgeOf(thickness, i + 1, kSteps), z = 0.5 * (a + b);
-      const double share = std::exp(-a / cosine) - std::exp(-b / cosine);
-      collided += share;
-      near += share * diffusionLeaving(unit, z, thickness);
-      far += share * diffusionLeaving(unit, thickness - z, thickness);
-    }
-  }
-  double absorbed() const { return std::max(0.0, collided - near - far); }
-};
-
 }  // namespace
 
-SlabTransport::SlabTransport(const Diffusion& medium, double eta)
-    : leastCosine_(float(leastCosineOut(eta))), table_(kThicknesses) {
+SlabTransport::SlabTransport(const Diffusion& medium, double eta) : table_(kThicknesses) {
   Diffusion unit = medium;  // in mean free paths
   unit.zb *= medium.sigma_tp;
   unit.k /= medium.sigma_tp;
   const Slab deep(kThickest, medium.albedo_p, directionsOf(eta));
-  for (int m = 0; m < kCosines; ++m) {
-    const double cosine =
-        std::max(0.02, double(leastCosine_) + (1 - double(leastCosine_)) * m / (kCosines - 1));
-    const Diffused wide(unit, kThickest, cosine);
-    const double absorbed = wide.collided - wide.near;
-    const double less = absorbed > 1e-9 ? (wide.collided - deep.reflected(cosine)) / absorbed - 1 : 0;
+  for (int d = 0; d < kDepths; ++d) {
+    const double z = depthOf(d), diffused = diffusionLeaving(unit, z, kThickest);
+    const double absorbed = 1 - diffused;
+    const double more = absorbed > 1e-9 ? (1 - deep.leaving(z)) / absorbed - 1 : 0;
     for (int t = 0; t < kThicknesses; ++t) {
-      const Diffused slab(unit, thicknessOf(t), cosine);
-      table_[size_t(t)][size_t(m)] = float(-less * slab.absorbed() / std::max(1e-12, slab.near + slab.far));
+      const double thickness = thicknessOf(t), depth = std::min(z, 0.5 * thickness);
+      const double left =
+          diffusionLeaving(unit, depth, thickness) + diffusionLeaving(unit, thickness - depth, thickness);
+      table_[size_t(t)][size_t(d)] = float(-more * std::max(0.0, 1 - left) / std::max(1e-12, left));
     }
   }
 }
 
-float SlabTransport::excess(float thickness, float cosine) const {
+float SlabTransport::excess(float thickness, float depth) const {
   if (table_.empty()) return 0;
-  const float thin = std::fmin(1.0f, thickness / float(kThinnest));
   const float last = kThicknesses - 1;
   const float t = std::clamp(std::log(std::fmax(thickness, 1e-6f) / float(kThinnest)) /
                                  float(std::log(kThickest / kThinnest)) * last,
                              0.0f, last);
-  const float m = std::clamp((cosine - leastCosine_) / (1 - leastCosine_), 0.0f, 1.0f) * (kCosines - 1);
-  const int i = std::min(int(t), kThicknesses - 2), j = std::min(int(m), kCosines - 2);
-  const float x = t - float(i), y = m - float(j);
+  const float d = std::fmin(depth / (1 + depth) / kDeepest, 1.0f) * (kDepths - 1);
+  const int i = std::min(int(t), kThicknesses - 2), j = std::min(int(d), kDepths - 2);
+  const float x = t - float(i), y = d - float(j);
   const auto &a = table_[size_t(i)], &b = table_[size_t(i) + 1];
   const auto k = size_t(j);
+  const float thin = std::fmin(1.0f, thickness / float(kThinnest));
   return thin * ((1 - x) * ((1 - y) * a[k] + y * a[k + 1]) + x * ((1 - y) * b[k] + y * b[k + 1]));
 }
 

@@ -7,28 +7,28 @@
 
 namespace lychnite::volume {
 
-/// How much stronger first collisions have to be as sources of the diffusion equation for as much light to
-/// leave as transport says, in a half-space of the isotropic medium lit by a refracted beam. In a slab that
-/// follows from what diffusion absorbs there, so that nothing changes where nothing is absorbed. Depends on
-/// albedo and index alone, lengths are mean free paths (docs/volume.md).
+/// How much stronger a source of the diffusion equation has to be for as much light to leave as transport
+/// says, in a half-space of the isotropic medium. In a slab that follows from what diffusion absorbs there,
+/// so that nothing changes where nothing is absorbed. Depends on albedo and index alone, lengths are mean
+/// free paths (docs/volume.md).
 class SlabTransport {
  public:
-  static constexpr int kThicknesses = 20, kCosines = 8;
+  static constexpr int kThicknesses = 20, kDepths = 12;
 
   SlabTransport() = default;
   /// Of the reduced medium; `eta` inside over outside.
   SlabTransport(const Diffusion& medium, double eta);
 
-  /// Strength less 1, for a beam at `cosine` to the normal into a slab of `thickness` mean free paths.
-  float excess(float thickness, float cosine) const;
+  /// Strength less 1, of light scattered `depth` mean free paths under the nearer side of a slab of
+  /// `thickness`.
+  float excess(float thickness, float depth) const;
 
   /// Of what enters a half-space at `cosine` inside, the share that leaves after scattering: transport, no
   /// diffusion. Of a slab of 16 mean free paths, in truth.
   static double reflectance(double albedo, double eta, double cosine);
 
  private:
-  float leastCosine_ = 0;
-  std::vector<std::array<float, kCosines>> table_;
+  std::vector<std::array<float, kDepths>> table_;
 };
 
 }  // namespace lychnite::volume
