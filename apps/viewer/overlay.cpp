@@ -11,9 +11,13 @@ namespace {
 
 const ImU32 kInk = IM_COL32(178, 180, 184, 255), kFaint = IM_COL32(128, 130, 134, 255);
 
-void text(ImDrawList& draw, glm::dvec2 at, ImU32 colour, const std::string& words) {
-  draw.AddText({float(at.x) + 1, float(at.y) + 1}, IM_COL32(0, 0, 0, 160), words.c_str());
-  draw.AddText(toIm(at), colour, words.c_str());
+/// Broken into lines as wide as `room`; 0: one line.
+void text(ImDrawList& draw, glm::dvec2 at, ImU32 colour, const std::string& words, double room = 0) {
+  const auto write = [&](const ImVec2& from, ImU32 ink) {
+    draw.AddText(ImGui::GetFont(), ImGui::GetFontSize(), from, ink, words.c_str(), nullptr, float(room));
+  };
+  write({float(at.x) + 1, float(at.y) + 1}, IM_COL32(0, 0, 0, 160));
+  write(toIm(at), colour);
 }
 
 /// A ruler along the longest side of the object's box, which is what its size means, at the box's left or
@@ -104,7 +108,7 @@ void drawWipe(PanelContext& context, ImDrawList& draw, const Area& area) {
   const std::string left = name(compare.left), right = name(compare.right);
   if (compare.mode == CompareView::Mode::kDifference) {
     text(draw, area.low + glm::dvec2(12 * s, 10 * s), kInk,
-         fmt::format("|{} - {}| over the mean of the right", left, right));
+         fmt::format("|{} - {}| over the mean of the right", left, right), area.size().x - 24 * s);
     if (context.view.available(compare.left) && context.view.available(compare.right))
       drawColourBar(context, area);
     return;
@@ -119,7 +123,7 @@ void drawWipe(PanelContext& context, ImDrawList& draw, const Area& area) {
   // Where there is no room for the left one before the line, the right one goes below it.
   const double down = from + width > x ? 10 * s + double(ImGui::GetTextLineHeightWithSpacing()) : 10 * s;
   text(draw, {from, area.low.y + 10 * s}, kInk, left);
-  text(draw, {x + 10 * s, area.low.y + down}, kInk, right);
+  text(draw, {x + 10 * s, area.low.y + down}, kInk, right, std::max(60.0 * s, area.high.x - x - 20 * s));
 }
 
 /// The chosen light's direction, while the hand turns it.
@@ -183,7 +187,8 @@ void drawKeys(ImDrawList& draw, const Area& area, double s) {
                                          {"Ctrl+Z, Ctrl+Shift+Z", "undo, redo"},
                                          {"Ctrl+S", "save the scene"},
                                          {"Ctrl+P, Ctrl+Shift+P", "write a PNG, an EXR"},
-                                         {"H", "these keys"}};
+                                         {"H", "these keys"},
+                                         {"Ctrl+Q", "leave"}};
   const double line = double(ImGui::GetTextLineHeightWithSpacing());
   const glm::dvec2 at = area.low + glm::dvec2(16 * s, 40 * s);
   draw.AddRectFilled(toIm(at - glm::dvec2(10 * s)),

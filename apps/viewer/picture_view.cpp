@@ -274,17 +274,21 @@ void PictureView::update(const Request& request) {
 }
 
 void PictureView::updateWalk(const Request& request) {
-  const bool wanted = compares(Source::kTruth);
-  if (!wanted || request.moving || restedAt_ > request.seconds) {
-    // Anything else has the processor first, and what the walk knows is of another scene by now.
-    if (!wanted || request.moving || request.seconds == changedAt_) {
-      walk_.stop();
-      walkTexture_.reset();
-      shownWalk_.reset();
-    }
-    return;
+  ViewState judged;
+  judged.scene = request.state->scene;
+  judged.settings.components = request.state->settings.components;
+  std::string key = compares(Source::kTruth) ? pictureKey(judged, request.pixels) : "";
+  if (key != walkKey_) {
+    walk_.stop();
+    walkTexture_.reset();
+    shownWalk_.reset();
+    walkBegun_ = false;
+    walkKey_ = std::move(key);
   }
-  if (request.seconds - restedAt_ < kWalkAfter) return;
+  if (walkKey_.empty()) return;
+  // Anything else has the processor first. What has begun goes on until the scene is another.
+  walkBegun_ |= !request.moving && request.seconds - restedAt_ >= kWalkAfter;
+  if (!walkBegun_) return;
   RenderSettings settings;
   settings.width = request.pixels.x;
   settings.height = request.pixels.y;

@@ -188,6 +188,8 @@ class PictureView {
   BackgroundWalk walk_;
   SamplerError samplerError_;
   std::optional<BackgroundWalk::Result> shownWalk_;
+  std::string walkKey_;
+  bool walkBegun_ = false;
   std::optional<gpu::Texture> walkTexture_, fileTexture_;
   std::shared_ptr<const Image> fileImage_;
   CompareView compare_;
