@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "lychnite/base/error.h"
 #include "lychnite/gpu/context.h"
@@ -106,6 +107,18 @@ const std::optional<SeenSamples>& LivePicture::samplesAt(const glm::dvec2& place
 
 namespace {
 
+/// The object stands in both pictures at the same place.
+bool sameView(const Scene& a, const Scene& b) {
+  const auto eyeOf = [](const Scene& scene) {
+    const Object& subject = scene.objects[subjectIndex(scene)];
+    const CameraFrame camera = cameraFrame(scene, 1, 1);
+    return std::pair((camera.position - subject.position) / subject.size, camera.forward);
+  };
+  const auto [eyeA, forwardA] = eyeOf(a);
+  const auto [eyeB, forwardB] = eyeOf(b);
+  return glm::distance(eyeA, eyeB) < 1e-6 && glm::distance(forwardA, forwardB) < 1e-6;
+}
+
 /// The same bodies in a picture of the same shape: an older picture may stand for the newest a moment.
 bool alike(const Scene& a, const Scene& b, const Image& picture, glm::ivec2 pixels) {
   if (a.objects.size() != b.objects.size()) return false;
@@ -121,7 +134,8 @@ bool alike(const Scene& a, const Scene& b, const Image& picture, glm::ivec2 pixe
 bool LivePicture::keepsUp(const ViewState& state, const Wish& wish) {
   if (!volumeTexture_) return false;
   const bool follows = volumePace_.follows(volumeImage_.get(), volumeBehind_, wish.seconds);
-  return follows && alike(volumeScene_, state.scene, *volumeImage_, wish.pixels);
+  return follows && alike(volumeScene_, state.scene, *volumeImage_, wish.pixels) &&
+         (!wish.compares || sameView(volumeScene_, state.scene));
 }
 
 /// Solves for the scene at rest in full, and coarser for one in motion as long as that keeps up.
@@ -253,7 +267,11 @@ void PictureView::update(const Request& request) {
   if (key != key_ || request.moving) changedAt_ = request.seconds;
   key_ = std::move(key);
   const bool rest = !request.moving && request.seconds - changedAt_ >= kRestAfter;
-  const LivePicture::Wish wish{request.pixels, pace_.scale(), rest, request.seconds};
+  const LivePicture::Wish wish{.pixels = request.pixels,
+                               .scale = pace_.scale(),
+                               .rest = rest,
+                               .seconds = request.seconds,
+                               .compares = compare_.mode != CompareView::Mode::kOff};
   drew_ = live_.update(state, wish);
   if (compares(Source::kVariant)) drew_ |= variant_.update(variant, wish);
   const bool whole = live_.whole() && (!compares(Source::kVariant) || variant_.whole());

@@ -30,7 +30,8 @@ class LivePicture {
     glm::ivec2 pixels{0};
     double scale = 1;  ///< of a picture drawn in motion
     bool rest = false;
-    double seconds = 0;  ///< now
+    double seconds = 0;     ///< now
+    bool compares = false;  ///< beside another one: it is never of an older view
   };
   /// Draws what changed; rest asks for the full resolution. True when something was drawn.
   bool update(const ViewState& state, const Wish& wish);

@@ -41,12 +41,12 @@ class Chance {
     if (what < 12) return took(3, key());
     if (what < 14) return took(3, fmt::format("scroll {}\nwait 2\n", below(2) ? 1 : -1));
     if (what == 14) return took(7, "drop " + oneOf(kModels) + "\nwait 6\n");
-    return took(3, fmt::format("resize {} {}\n", 320 + below(320), 320 + below(140)));
+    return took(3, fmt::format("resize {} {}\n", 400 + below(240), 320 + below(140)));
   }
   /// The next method, the walk or the variant beside it, and long enough for solvers to begin.
   std::string part() {
     return took(72, "key m\nresize 480 1100\nkey d\nkey c\nwait 2\nclick @right\nwait 2\nclick @right-" +
-                        oneOf({"truth-walk", "variant"}) + "\nwait 40\nresize 480 400\n");
+                        oneOf({"truth-walk", "variant", "variant"}) + "\nresize 480 400\nwait 40\n");
   }
   /// Nothing moves by itself any more.
   std::string end() const { return std::string(orbits_ ? "key space\n" : "") + "drop stone\nwait 30\n"; }
