@@ -37,6 +37,7 @@ struct Body {
   transport::Medium medium;   ///< per scene unit
   transport::Medium reduced;  ///< isotropic with sigma_sp, per scene unit
   DiffusionSystem system;     ///< local units
+  glm::vec3 chances{1};       ///< of the channels, to draw a path: 1 together
   SlabTransport slabs[3];     ///< of the reduced medium's channels
   float thickness = 1;        ///< of the slab that has as much volume for its surface, local units
   bool trustClear = true;     ///< nothing else can be inside

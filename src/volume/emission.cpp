@@ -17,6 +17,8 @@ constexpr size_t kBlock = 2048;
 constexpr double kStep[5] = {0.8812714616335696, 0.7766393890897682, 0.6844301295853426, 0.6031687406857282,
                              0.5315553977157913};
 
+constexpr double kChannelStep = 0.41421356237309503;  // of a recurrence of its own
+
 float turn(double x) {
   return std::fmin(float(x - std::floor(x)), 0.99999994f);
 }
@@ -47,7 +49,7 @@ struct Pass {
   int collisions;
   uint64_t seed;
   int number;
-  float shift[5];
+  float shift[6];
 
   void follow(Tracer& tracer, size_t i) const {
     const Body& body = *world.bodies[object];
@@ -67,8 +69,8 @@ struct Pass {
     const glm::vec3 u(turn(n * kStep[2] + double(shift[2])), turn(n * kStep[3] + double(shift[3])),
                       turn(n * kStep[4] + double(shift[4])));
     const uint64_t stream = (uint64_t(number) << 32) + object * emission.points().size() + i;
-    tracer.arrive(hit, -towards, glm::vec3(seen.irradiance) * (cosine * area), int((i + size_t(number)) % 3),
-                  u, Rng(seed, stream), 0, collisions);
+    tracer.arrive(hit, -towards, glm::vec3(seen.irradiance) * (cosine * area),
+                  turn(n * kChannelStep + double(shift[5])), u, Rng(seed, stream), 0, collisions);
   }
 };
 

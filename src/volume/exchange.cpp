@@ -77,7 +77,7 @@ std::vector<Deposits> Exchange::send(const World& world, const std::vector<std::
       if (!(flux.x + flux.y + flux.z > 0)) continue;
       Rng rng(seed, kStream + i);
       const glm::vec3 u(rng.uniform(), rng.uniform(), rng.uniform());
-      tracer.arrive(pair.hit, pair.direction, flux, int(i % 3), u, rng, 2, collisions);
+      tracer.arrive(pair.hit, pair.direction, flux, rng.uniform(), u, rng, 2, collisions);
     }
     tallies[b] = tracer.tally();
   });

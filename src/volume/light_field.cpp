@@ -13,6 +13,7 @@ constexpr int kExchangeCollisions = 2;  // of light that meets another surface, 
 
 // Photons tell what the beams are wrong by, which is little, and begin at the beams' solution.
 constexpr double kFiner = 0.2;
+constexpr double kCoarse = 0.1;  // of what their halves differ by, which tells the noise
 
 double since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -68,7 +69,29 @@ void LightSolver::trace(LightField& field) {
   stats_.sourceMs += since(start);
 }
 
-/// Each half of the photons for itself.
+/// By the mean of both halves of the photons and half their difference, of which few digits matter.
+void LightSolver::solveHalves(LightField& field, size_t body) {
+  const DiffusionSystem& system = world_.bodies[body]->system;
+  const float each = 1 / float(field.passes);
+  std::vector<Lanes> Q[2];
+  for (int half : {0, 1}) Q[half] = field.deposits[half][body].source;
+  for (size_t i = 0; i < Q[0].size(); ++i) {
+    const Lanes a = Q[0][i], b = Q[1][i];
+    Q[0][i] = each * (a + b);
+    Q[1][i] = each * (a - b);
+  }
+  std::vector<Lanes> mean = field.phiBeam[body];  // whatever was solved for before: the same bits
+  std::vector<Lanes> deviation;
+  stats_.iterations += system.solve(Q[0], mean, kFiner * settings_.tolerance).iterations;
+  stats_.iterations += system.solve(Q[1], deviation, kCoarse).iterations;
+  for (int half : {0, 1}) field.phi[half][body] = mean;
+  for (size_t i = 0; i < mean.size(); ++i) {
+    field.phi[0][body][i] += deviation[i];
+    field.phi[1][body][i] -= deviation[i];
+  }
+}
+
+/// What leaves, by each half of the photons for itself.
 void LightSolver::solve(LightField& field) {
   const auto start = std::chrono::steady_clock::now();
   const size_t bodies = world_.bodies.size();
@@ -78,14 +101,15 @@ void LightSolver::solve(LightField& field) {
     field.phi[half].resize(bodies);
     field.all[half].assign(bodies, {});
     field.first[half].assign(bodies, {});
-    for (size_t i = 0; i < bodies; ++i) {
-      if (!world_.bodies[i]) continue;
-      const DiffusionSystem& system = world_.bodies[i]->system;
+  }
+  for (size_t i = 0; i < bodies; ++i) {
+    if (!world_.bodies[i]) continue;
+    const DiffusionSystem& system = world_.bodies[i]->system;
+    solveHalves(field, i);
+    for (int half : {0, 1}) {
       const Deposits& deposits = field.deposits[half][i];
       std::vector<Lanes> Q = deposits.source;
       for (Lanes& q : Q) q *= each;
-      field.phi[half][i] = field.phiBeam[i];  // whatever was solved for before: the same bits
-      stats_.iterations += system.solve(Q, field.phi[half][i], kFiner * settings_.tolerance).iterations;
       field.absorbed += 0.5 * system.absorbed(field.phi[half][i]);
       std::vector<Lanes>&all = field.all[half][i], &first = field.first[half][i] = deposits.first;
       system.exits(field.phi[half][i], all);

@@ -50,6 +50,7 @@ class LightSolver {
   void solve(LightField& field);  ///< for all photons so far
 
  private:
+  void solveHalves(LightField& field, size_t body);
   void exchangeLight(LightField& field);
   LightField::Fluxes lightThatReturns(LightField& field);
 

@@ -77,13 +77,16 @@ Tally& Tally::operator+=(const Tally& other) {
   return *this;
 }
 
-void Tracer::arrive(const RayHit& hit, const glm::vec3& direction, const glm::vec3& flux, int channel,
+void Tracer::arrive(const RayHit& hit, const glm::vec3& direction, const glm::vec3& flux, float drawn,
                     const glm::vec3& u, Rng rng, int order, int collisions) {
   rng_ = rng;
   Photon photon;
   photon.direction = direction;
   photon.flux = flux;
-  photon.channel = channel;
+  if (const auto& in = world_.bodies[size_t(hit.object)]) {
+    photon.channel = drawn < in->chances.x ? 0 : drawn < in->chances.x + in->chances.y ? 1 : 2;
+    photon.density = 3.0f * in->chances;
+  }
   photon.order = order;
   photon.collisions = collisions;
   firstNumbers_ = u;

@@ -72,10 +72,11 @@ class Tracer {
     Interruptible::check();
   }
 
-  /// Light of `flux` that travels along `direction` and meets the front of a surface. `u` are the numbers in
-  /// [0, 1) of its first flight and first scattering, `order` the collisions that it has behind it,
-  /// `collisions` how many more are traced before the diffusion equation takes over, at least 1.
-  void arrive(const RayHit& hit, const glm::vec3& direction, const glm::vec3& flux, int channel,
+  /// Light of `flux` that travels along `direction` and meets the front of a surface. `drawn` in [0, 1)
+  /// draws the channel of its path, `u` are the numbers in [0, 1) of its first flight and first scattering,
+  /// `order` the collisions that it has behind it, `collisions` how many more are traced before the diffusion
+  /// equation takes over, at least 1.
+  void arrive(const RayHit& hit, const glm::vec3& direction, const glm::vec3& flux, float drawn,
               const glm::vec3& u, transport::Rng rng, int order, int collisions);
   const Tally& tally() const { return tally_; }
 

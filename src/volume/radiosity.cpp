@@ -15,7 +15,7 @@ namespace {
 constexpr size_t kWidths = 4;
 constexpr double kLeastWidth = 0.5, kWidest = 6, kWidthOfOne = 1.9;
 constexpr double kPhotonsOfOne = 8;  // per voxel's face, where it is kWidthOfOne
-constexpr double kBeamWidth = 1.3;   // of what has no noise: hides the cells
+constexpr double kBeamWidth = 1.1;   // of what has no noise: hides the cells
 constexpr double kAgainWidth = 2.5;
 constexpr double kBeams = 4;        // looks of the first order per voxel's face, about
 constexpr float kBlock = 4;         // voxels: errors are averaged over 3 x 3 x 3 blocks of this side
