@@ -18,7 +18,7 @@ BackgroundDipole::BackgroundDipole(int threads, bool yields)
                         ticket.publish(std::make_shared<const Image>(
                             renderReference(job.scene, job.settings, progress)));
                       },
-                      yields}}) {}
+                      yields ? 19 : 0}}) {}
 BackgroundDipole::~BackgroundDipole() = default;
 
 void BackgroundDipole::want(const Scene& scene, const RenderSettings& settings) {

@@ -10,13 +10,19 @@ namespace lychnite {
 
 using VolumeRefiner = Refiner<BackgroundVolume::Result>;
 
+namespace {
+
+constexpr int kNiceness = 4;  // a third of what a window's own thread gets, where it wants all
+
+}  // namespace
+
 struct BackgroundVolume::Impl {
   explicit Impl(const Options& options)
       : arena(backgroundThreads(options.threads)),
         most(options.passes),
         refiner([this](const RefinerJob& job,
                        const VolumeRefiner::Ticket& ticket) { arena.execute([&] { refine(job, ticket); }); },
-                options.yields) {}
+                options.yields ? kNiceness : 0) {}
 
   void refine(const RefinerJob& job, const VolumeRefiner::Ticket& ticket);
 

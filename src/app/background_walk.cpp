@@ -17,10 +17,11 @@
 
 namespace lychnite {
 
-void lowerThreadPriority() {
+void lowerThreadPriority(int niceness) {
+  if (niceness <= 0) return;
 #ifdef __linux__
   // On Linux a niceness belongs to a thread, and the threads that it starts inherit it.
-  setpriority(PRIO_PROCESS, id_t(syscall(SYS_gettid)), 19);
+  setpriority(PRIO_PROCESS, id_t(syscall(SYS_gettid)), niceness);
 #endif
 }
 
@@ -76,7 +77,7 @@ struct BackgroundWalk::Impl {
             [enough = options.enough](const RefinerJob& job, const WalkRefiner::Ticket& ticket) {
               refineWalk(job, ticket, enough);
             },
-            options.yields) {}
+            options.yields ? 19 : 0) {}
   int threads;
   WalkRefiner refiner;
 };

@@ -55,9 +55,9 @@ class Refiner {
   /// throws becomes the problem().
   using Work = std::function<void(const RefinerJob&, const Ticket&)>;
 
-  Refiner(Work work, bool yields)
+  Refiner(Work work, int niceness)
       : work_(std::move(work)),
-        thread_([this, yields](const std::stop_token& token) { run(token, yields); }) {}
+        thread_([this, niceness](const std::stop_token& token) { run(token, niceness); }) {}
   ~Refiner() {
     stop();
     thread_.request_stop();
@@ -104,8 +104,8 @@ class Refiner {
     ++version_;
   }
 
-  void run(const std::stop_token& stop, bool yields) {
-    if (yields) lowerThreadPriority();
+  void run(const std::stop_token& stop, int niceness) {
+    lowerThreadPriority(niceness);
     uint64_t done = 0;
     while (true) {
       RefinerJob job;

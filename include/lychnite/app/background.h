@@ -13,9 +13,9 @@
 
 namespace lychnite {
 
-/// Puts the calling thread, and those that it starts, behind everything else that wants the processor. Best
-/// effort: nothing where the platform has no such thing.
-void lowerThreadPriority();
+/// Puts the calling thread, and those that it starts, behind others that want the processor: 19 is behind all
+/// of them, 0 not at all. Best effort: nothing where the platform has no such thing.
+void lowerThreadPriority(int niceness = 19);
 
 /// How many threads work in the background: `wanted`, or for 0 one for up to two cores and half of them for
 /// more.
@@ -72,7 +72,7 @@ class BackgroundVolume {
   struct Options {
     int threads = 0;     ///< as backgroundThreads() takes it
     int passes = 64;     ///< to stop at
-    bool yields = true;  ///< to everything else that wants the processor
+    bool yields = true;  ///< to others that want the processor, a little: a window waits for it
   };
   explicit BackgroundVolume(const Options& options);
   ~BackgroundVolume();
