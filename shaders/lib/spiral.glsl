@@ -6,13 +6,12 @@ float radialShare(float r, float scale) { return r / (r + scale); }
 
 float radiusOfShare(float share, float scale) { return scale * share / max(1e-6, 1.0 - share); }
 
-// Cosine and sine of the azimuth phi for a turn m: even turns, denser towards phi = 0 by (1 + e)/(1 - e), e in [0, 1); third,
-// d phi / d m.
-vec3 denserAhead(float m, float e) {
+// Cosine and sine of the azimuth phi for those of a turn m: even turns, denser towards phi = 0 by (1 + e)/(1 - e), e in [0, 1);
+// third, d phi / d m.
+vec3 denserAhead(vec2 turn, float e) {
   float squeeze = sqrt(1.0 - e * e);
-  float cosine = cos(m);
-  float even = 1.0 / (1.0 + e * cosine);
-  return vec3((cosine + e) * even, squeeze * sin(m) * even, squeeze * even);
+  float even = 1.0 / (1.0 + e * turn.x);
+  return vec3((turn.x + e) * even, squeeze * turn.y * even, squeeze * even);
 }
 
 // Distance from a point e0 off the centre of a circle of radius rc to the circle, in the direction with this cosine and

@@ -1,6 +1,5 @@
 // Multiple scattering by the matched sampler, first part: what can be interpolated from the next coarser level, and the list
 // of the receivers that cannot.
-#include "lib/profile.glsl"
 #include "lists/matched_sites.glsl"
 
 uniform sampler2D coarserValue;    // as `value` and `surface` below, evaluated
@@ -20,55 +19,88 @@ layout(location = 0) out vec4 value;    // the interpolated part
 layout(location = 1) out vec4 surface;  // depth along the camera's axis, octahedral normal, 1 + bits of the listed receivers
 
 const float kMostTolerance = 2.0;
+// What a straight line between neighbours may be wrong by, as a share of the difference that needs no such look.
+const float kBend = 0.2;
 
-// Neighbours on the receiver's own piece of surface: normals within about 18 degrees, points near its tangent plane.
+// Neighbours on the receiver's own piece of surface: normals within about 18 degrees, points near its tangent plane; both
+// looser the nearer they are beside the core.
 bool sameSurface(Receiver r, ivec2 at, vec3 s, out float far) {
   vec2 middle = vec2(at * (4 << level) + (2 << level));
   vec3 offset = cameraPosition + rayThrough(middle) * s.x - r.position;
   far = length(offset);
-  return dot(octDecode(s.yz), r.normal) > 0.95 && abs(dot(offset, r.normal)) <= 0.25 * far;
+  float strict = clamp(far / coreLength, 0.0, 1.0);
+  return dot(octDecode(s.yz), r.normal) > mix(0.8, 0.95, strict) &&
+         abs(dot(offset, r.normal)) <= mix(0.5, 0.25, strict) * far;
+}
+
+// Value and distance of a coarser site; false where there is none or it lies on another piece of surface.
+bool neighbour(Receiver r, ivec2 at, out vec3 found, out float far) {
+  ivec2 last = textureSize(coarserValue, 0) - 1;
+  if (at.x < 0 || at.y < 0 || at.x > last.x || at.y > last.y) return false;
+  vec4 s = texelFetch(coarserSurface, at, 0);
+  if (s.w == 0.0 || !sameSurface(r, at, s.xyz, far)) return false;
+  found = texelFetch(coarserValue, at, 0).xyz;
+  return true;
+}
+
+// Whether a straight line through the corners is near enough: their second differences with their neighbours in the cell and
+// beyond, times what a parabola a quarter of the way between sites then lies off.
+bool straight(Receiver r, ivec2 base, vec3 corners[4], vec3 allowed) {
+  vec3 bend = vec3(0.0);
+  for (int i = 0; i < 4; ++i) {
+    ivec2 corner = ivec2(i & 1, i >> 1);
+    vec3 here = vec3(0.0);
+    for (int axis = 0; axis < 2; ++axis) {
+      ivec2 step = axis == 0 ? ivec2(2 * corner.x - 1, 0) : ivec2(0, 2 * corner.y - 1);
+      vec3 outer;
+      float far;
+      if (!neighbour(r, base + corner + step, outer, far)) return false;
+      here += abs(outer - 2.0 * corners[i] + corners[i ^ (axis + 1)]);
+    }
+    bend = max(bend, here);
+  }
+  return all(lessThanEqual(0.09375 * bend, allowed));
 }
 
 // Across neighbours that differ little, the more the nearer they are, or by nothing that shows beside what a lit surface
-// gives.
-bool interpolated(Receiver r, ivec2 site, out vec3 radiosity) {
+// gives, or that lie on a straight line.
+bool interpolated(Receiver r, ivec2 site, out vec3 found) {
   vec2 t = vec2(site) * 0.5 - 0.25;
   ivec2 base = ivec2(floor(t));
-  ivec2 last = textureSize(coarserValue, 0) - 1;
   vec2 f = t - vec2(base);
-  radiosity = vec3(0.0);
+  found = vec3(0.0);
   vec3 least = vec3(1e30);
   vec3 most = vec3(0.0);
   float farthest = 0.0;
+  vec3 corners[4];
   for (int i = 0; i < 4; ++i) {
     ivec2 corner = ivec2(i & 1, i >> 1);
-    ivec2 at = base + corner;
-    if (at.x < 0 || at.y < 0 || at.x > last.x || at.y > last.y) return false;
-    vec4 s = texelFetch(coarserSurface, at, 0);
     float far;
-    if (s.w == 0.0 || !sameSurface(r, at, s.xyz, far)) return false;
+    if (!neighbour(r, base + corner, corners[i], far)) return false;
     farthest = max(farthest, far);
-    vec3 c = texelFetch(coarserValue, at, 0).xyz;
     vec2 w = mix(1.0 - f, f, vec2(corner));
-    radiosity += w.x * w.y * c;
-    least = min(least, c);
-    most = max(most, c);
+    found += w.x * w.y * corners[i];
+    least = min(least, corners[i]);
+    most = max(most, corners[i]);
   }
   float allowed = interpolation * clamp(coreLength / farthest, 1.0, kMostTolerance);
-  return all(lessThanEqual(most - least, allowed * max(most, faint)));
+  bool good = all(lessThanEqual(most - least, allowed * max(most, faint)));
+  // A loop, since a software driver would run a branch's inside for all.
+  for (int i = good ? 1 : 0; i < 1; ++i) good = straight(r, base, corners, kBend * interpolation * max(most, faint));
+  return good;
 }
 
 void main() {
   ivec2 site = ivec2(gl_FragCoord.xy) + ivec2(0, firstRow);
   Receiver receivers[4];
   int count = loadReceivers(firstSample(site), receivers);
-  if (count == 0 || (level > 0 && (count > 1 || receivers[0].weight < 1.0))) discard;
+  if (count == 0 || (level > 0 && count > 1)) discard;
   vec3 sum = vec3(0.0);
   int listed = 0;
   for (int i = 0; i < count; ++i) {
-    vec3 radiosity;
-    if (hasCoarser == 1 && interpolated(receivers[i], site, radiosity)) {
-      sum += shownAs(receivers[i]) * radiosity;
+    vec3 found;
+    if (hasCoarser == 1 && interpolated(receivers[i], site, found)) {
+      sum += shownAs(receivers[i]) * found;
     } else {
       sites[atomicAdd(siteCount, 1u)] = packReceiver(site, i);
       listed |= 1 << i;

@@ -15,10 +15,11 @@ uint packReceiver(ivec2 site, int receiver) { return uint(site.x) | uint(site.y)
 ivec2 siteOf(uint code) { return ivec2(code & 0x7fffu, code >> 15 & 0x7fffu); }
 int receiverOf(uint code) { return int(code >> 30); }
 
-// What the receiver's radiosity is multiplied with: in a picture the share of the pixel and the exit lobe.
+// What the receiver's radiosity is multiplied with: in a picture the exit lobes of its samples, a quarter of the pixel each.
 float shownAs(Receiver r) {
   if (level > 0) return 1.0;
   float sum = 0.0;
-  for (int i = 0; i < 4; ++i) sum += exitLobe(r.cosO[i], eta, piC);
-  return 0.25 * sum * r.weight;
+  for (int i = 0; i < 4; ++i)
+    if (float(i) < 4.0 * r.weight) sum += exitLobe(r.cosO[i], eta, piC);
+  return 0.25 * sum;
 }

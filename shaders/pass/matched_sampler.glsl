@@ -19,6 +19,9 @@ uniform float mostRefinement;  // doublings of their number, at most, where the 
 const float kDark = 1e-7;  // a texel with less flux is empty
 const float kTexelRadius = 0.5641896;  // of the disc with a texel's area
 
+vec3 profileRd(float r) {
+  return textureLod(profile, vec2(profileCoordinate(r, profileScale), 0.25), 0.0).xyz;
+}
 vec3 profileP(float r) {
   return textureLod(profile, vec2(profileCoordinate(r, profileScale), 0.75), 0.0).xyz;
 }
@@ -97,9 +100,21 @@ struct Sum {
   vec3 faintest;      // smallest kernel among the outermost quarter
 };
 
-// Mean of the kernel over the ring between two squared distances. A thin ring, in which P's digits cancel, is widened to
-// 2 % of its square: the mean of a smooth kernel hardly differs.
-vec3 kernelMean(float a2, float b2) {
+// One sample: a piece of the ring from a to b around the receiver's projection.
+struct Cell {
+  vec2 uv;
+  float a, q, b;   // radii: inner, of the sample, outer
+  float area;      // scene units, across the light
+};
+
+// From this one on a spiral's rings are narrow: their radii differ by less than a twentieth.
+const int kFirstNarrow = 10;
+
+// Mean of the kernel over the ring between two squared distances: of a wide ring by P; of a narrow one, where P's digits would
+// cancel, at the distances' geometric mean. That is exact where the kernel falls as their fourth power or not at all; between
+// the two it is off by less than 1/24 of the squared logarithm of a2 / b2.
+vec3 kernelMean(float a2, float b2, bool narrow) {
+  if (narrow) return profileRd(sqrt(sqrt(a2 * b2)));
   float most = max(a2, b2);
   float least = min(min(a2, b2), 0.98 * most);
   return (profileP(sqrt(least)) - profileP(sqrt(most))) / (3.141592653589793 * (most - least));
@@ -107,12 +122,12 @@ vec3 kernelMean(float a2, float b2) {
 
 // Kernel of one cell whose flux sits at height `height` above the receiver at the cell's middle radius q. Distances are
 // rounded off by the window: what that takes away near the receiver, it answers for itself.
-vec3 cellKernel(float a, float b, float q, float start, float height, float window) {
-  float ha = start + (height - start) * a / q;
-  float hb = start + (height - start) * b / q;
-  float a2 = a * a + ha * ha + window * window;
-  float b2 = b * b + hb * hb + window * window;
-  return kernelMean(a2, b2);
+vec3 cellKernel(Cell c, bool narrow, float start, float height, float window) {
+  float ha = start + (height - start) * c.a / c.q;
+  float hb = start + (height - start) * c.b / c.q;
+  float a2 = c.a * c.a + ha * ha + window * window;
+  float b2 = c.b * c.b + hb * hb + window * window;
+  return kernelMean(a2, b2, narrow);
 }
 
 // The receiver's spiral: it fills the object's circle, which lies off the receiver by e0.
@@ -146,17 +161,22 @@ Spiral spiralOf(Ground g) {
   return s;
 }
 
-// One sample: a piece of the ring from a to b around the receiver's projection.
-struct Cell {
-  vec2 uv;
-  float a, q, b;   // radii: inner, of the sample, outer
-  float area;      // scene units, across the light
-};
+// Cosine and sine of a sample's turn before it is made denser, from behind, so that the largest cells, the first, do not all
+// lie ahead.
+vec2 turnOf(Spiral s, int index) {
+  float turn = 6.283185307179586 * (fract(0.6180339887498949 * float(index) - s.inwardsTurn) - 0.5);
+  return vec2(cos(turn), sin(turn));
+}
 
-Cell cellOf(Ground g, Spiral s, float cells, int index) {
+// The next sample's turn: the golden angle further.
+vec2 nextTurn(vec2 turn) {
+  const vec2 kGolden = vec2(-0.7373688780783197, -0.6754902942615238);
+  return vec2(turn.x * kGolden.x - turn.y * kGolden.y, turn.y * kGolden.x + turn.x * kGolden.y);
+}
+
+Cell cellOf(Ground g, Spiral s, float cells, int index, vec2 turn) {
   float i = float(index);
-  // From behind, so that the largest cells, the first, do not all lie ahead.
-  vec3 phi = denserAhead(6.283185307179586 * (fract(0.6180339887498949 * i - s.inwardsTurn) - 0.5), s.e);
+  vec3 phi = denserAhead(turn, s.e);
   float edge = min(length(vec2(distanceToCircle(s.e0, s.rc, phi.x, phi.y), s.d)), s.farthest);
   float share = radialShare(edge, spiralScale) - s.g0;
   vec3 at = vec3(i, i + 0.5, i + 1.0) * (share / cells) + s.g0;
@@ -174,7 +194,10 @@ Cell cellOf(Ground g, Spiral s, float cells, int index) {
 
 float levelOf(Ground g, Cell c) { return max(0.0, 0.5 * log2(c.area) - log2(g.texel) - 1.0); }
 
-void addCell(inout Sum sum, Ground g, Cell c, bool outermost) {
+// A spread of depths below this share of the distance, both squared, is none.
+const float kNoSpread = 0.003;
+
+void addCell(inout Sum sum, Ground g, Cell c, bool narrow, bool outermost) {
   float level = levelOf(g, c);
   vec4 t = textureLod(moments, c.uv, level);
   if (t.x < kDark) return;
@@ -182,17 +205,20 @@ void addCell(inout Sum sum, Ground g, Cell c, bool outermost) {
   float variance = m.y - m.x * m.x;
   float height = m.x - g.z;
   // The surface's slope inside the footprint is not a spread of depths.
-  float footprint = exp2(level) * g.texel;
+  float footprint = max(g.texel, 0.5 * sqrt(c.area));
   float slope2 = max((height - g.depth) * (height - g.depth) / (c.q * c.q), g.slope2);
   variance -= 0.25 * slope2 * footprint * footprint;
   // Two nodes with the flux's mean, variance and skewness; without a spread they are one.
+  bool spread = variance > max(1e-9, kNoSpread * (c.q * c.q + height * height));
   float third = m.z - 3.0 * m.x * m.y + 2.0 * m.x * m.x * m.x;
-  float deviation = sqrt(max(variance, 0.0));
-  float skew = variance > 1e-9 ? clamp(third / (variance * deviation), -20.0, 20.0) : 0.0;
+  float deviation = spread ? sqrt(variance) : 0.0;
+  float skew = spread ? clamp(third / (variance * deviation), -20.0, 20.0) : 0.0;
   float root = sqrt(skew * skew + 4.0);
-  float w = 0.5 * (skew + root) / root;
-  vec3 f = w * cellKernel(c.a, c.b, c.q, g.depth, height + 0.5 * deviation * (skew - root), g.window) +
-           (1.0 - w) * cellKernel(c.a, c.b, c.q, g.depth, height + 0.5 * deviation * (skew + root), g.window);
+  float w = spread ? 0.5 * (skew + root) / root : 1.0;
+  vec3 f = w * cellKernel(c, narrow, g.depth, height + 0.5 * deviation * (skew - root), g.window);
+  // A loop, since a software driver would run a branch's inside for all.
+  for (int i = spread ? 0 : 1; i < 1; ++i)
+    f += (1.0 - w) * cellKernel(c, narrow, g.depth, height + 0.5 * deviation * (skew + root), g.window);
   sum.radiosity += c.area * t.x * f;
   sum.weighted += c.area * c.area * t.x * f;
   sum.weight += c.area * c.area * t.x;
@@ -203,7 +229,17 @@ void addCell(inout Sum sum, Ground g, Cell c, bool outermost) {
 // The map is dark beyond its border, and its coarse levels fade there.
 vec3 patternRadiosity(Ground g, Spiral s, float cells) {
   Sum sum = Sum(vec3(0.0), vec3(0.0), 0.0, 0.0, vec3(1e30));
-  for (int i = 0; float(i) < cells; ++i) addCell(sum, g, cellOf(g, s, cells, i), 4.0 * float(i) >= 3.0 * cells);
+  int wide = min(kFirstNarrow, int(cells));
+  vec2 turn = turnOf(s, 0);
+  int i = 0;
+  for (; i < min(kFirstNarrow, int(cells)); ++i, turn = nextTurn(turn)) {
+    Cell c = cellOf(g, s, cells, i, turn);
+    addCell(sum, g, c, false, 4.0 * float(i) >= 3.0 * cells);
+  }
+  for (; float(i) < cells; ++i, turn = nextTurn(turn)) {
+    Cell c = cellOf(g, s, cells, i, turn);
+    addCell(sum, g, c, true, 4.0 * float(i) >= 3.0 * cells);
+  }
   // What the samples missed of the known total flux, spread like the samples (a control variate), tapered where they
   // missed so much that the estimate means nothing.
   float total = textureLod(moments, vec2(0.5), 30.0).x * g.width * g.width;

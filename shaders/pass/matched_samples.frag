@@ -19,11 +19,12 @@ void main() {
   Ground g = groundOf(view, r);
   float cells = float(sampleCount) * exp2(floor(g.refinement + 0.125));  // of the pattern that has more of the weight
   if (float(i) >= cells) return;
-  Cell c = cellOf(g, spiralOf(g), cells, i);
+  Spiral s = spiralOf(g);
+  Cell c = cellOf(g, s, cells, i, turnOf(s, i));
   float level = levelOf(g, c);
   place = vec4(c.uv, level, sqrt(c.area) / g.width);
   Sum sum = Sum(vec3(0.0), vec3(0.0), 0.0, 0.0, vec3(1e30));
-  addCell(sum, g, c, false);
+  addCell(sum, g, c, i >= kFirstNarrow, false);
   vec2 m = textureLod(moments, c.uv, level).xy;
   share = vec4(powerAt(view, r) * sum.radiosity, m.x > kDark ? centreDepth - m.y / m.x : 0.0);
 }

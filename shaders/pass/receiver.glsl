@@ -1,6 +1,7 @@
 // The surface points of a pixel at which scattering is evaluated. The geometry texture holds 2 x 2 samples a pixel;
 // where all four lie on one smooth piece of surface they become one receiver, elsewhere (silhouettes, creases, where
 // the exit lobe falls off) each is its own, so that edges are anti-aliased and what is inside them is not blurred.
+// What varies slowly enough lets the samples of an edge share one, too.
 #include "lib/octahedral.glsl"
 
 uniform sampler2D geometry;
@@ -9,7 +10,8 @@ uniform vec3 cameraRight;    // times the tangent of half the horizontal angle
 uniform vec3 cameraUp;       // times the tangent of half the vertical angle
 uniform vec3 cameraForward;
 uniform float objectNumber;
-uniform float shareWithin;   // samples this near on one smooth piece share a receiver though their exit lobes differ
+uniform float shareWithin;   // samples this near share a receiver, though they do not fill the pixel or their exit lobes differ
+uniform int anyLobe;         // 1: one smooth piece is one receiver whatever its exit lobes
 
 // Cosines to the camera so close together, the less the flatter, have one exit lobe. As reference/camera_receivers.cpp.
 const float kLobeSpread = 0.25;
@@ -19,7 +21,7 @@ struct Receiver {
   vec3 normal;
   vec3 view;      // towards the camera
   vec4 cosO;      // of its samples; all alike where it has one, or one lobe
-  float weight;   // share of the pixel
+  float weight;   // share of the pixel, a quarter for each sample
 };
 
 vec3 rayThrough(vec2 sampleCoordinate) {
@@ -32,15 +34,22 @@ Receiver receiverAt(vec3 position, vec3 normal, float weight) {
   return Receiver(position, normal, view, vec4(clamp(dot(normal, view), 0.0, 1.0)), weight);
 }
 
-// One receiver for the samples, if there are four and they are one smooth piece: normals within about 25 degrees, points near
-// one plane in terms of their own spread; and of one exit lobe, or near together.
-bool together(vec3 positions[4], vec3 normals[4], out Receiver receiver) {
-  vec3 centre = 0.25 * (positions[0] + positions[1] + positions[2] + positions[3]);
-  vec3 normal = 0.25 * (normals[0] + normals[1] + normals[2] + normals[3]);
+// One receiver for the first `count` samples, the places after which hold the last: if there are four and they are one smooth
+// piece, normals within about 25 degrees, points near one plane in terms of their own spread, and of one exit lobe; or if they
+// are near together and do not face away from each other.
+bool together(vec3 positions[4], vec3 normals[4], int count, out Receiver receiver) {
+  vec3 centre = vec3(0.0);
+  vec3 normal = vec3(0.0);
+  for (int i = 0; i < 4; ++i) {
+    float share = i < count ? 1.0 / float(count) : 0.0;
+    centre += share * positions[i];
+    normal += share * normals[i];
+  }
   float agreement = length(normal);
   normal = normalize(normal);
-  float spread = max(distance(positions[0], positions[3]), distance(positions[1], positions[2]));
-  receiver = receiverAt(centre, normal, 1.0);
+  float spread = max(max(distance(positions[0], positions[3]), distance(positions[1], positions[2])),
+                     distance(positions[0], positions[1]));
+  receiver = receiverAt(centre, normal, 0.25 * float(count));
   float off = 0.0;
   vec4 cosO;
   for (int i = 0; i < 4; ++i) {
@@ -50,8 +59,9 @@ bool together(vec3 positions[4], vec3 normals[4], out Receiver receiver) {
   float least = min(min(cosO.x, cosO.y), min(cosO.z, cosO.w));
   float most = max(max(cosO.x, cosO.y), max(cosO.z, cosO.w));
   bool oneLobe = most - least < kLobeSpread * least * least;
-  if (!oneLobe) receiver.cosO = clamp(cosO, 0.0, 1.0);
-  return agreement > 0.975 && off < 0.25 * spread && (oneLobe || spread < shareWithin);
+  if (!oneLobe || count < 4) receiver.cosO = clamp(cosO, 0.0, 1.0);
+  bool onePiece = count == 4 && agreement > 0.975 && off < 0.25 * spread;
+  return (onePiece && (oneLobe || anyLobe == 1)) || (spread < shareWithin && agreement > 0.9);
 }
 
 // Receivers of this object among the 2 x 2 samples from `first` on, 0 to 4.
@@ -73,7 +83,7 @@ int loadReceivers(ivec2 first, out Receiver receivers[4]) {
     }
     ++count;
   }
-  if (count == 4 && together(positions, normals, receivers[0])) return 1;
+  if (count > 0 && together(positions, normals, count, receivers[0])) return 1;
   for (int i = 0; i < 4; ++i)
     if (i < count) receivers[i] = receiverAt(positions[i], normals[i], 0.25);
   return count;

@@ -84,6 +84,7 @@ void MultipleMatchedShading::setSiteUniforms(gpu::Program& program, const Target
   const ProfileCache::Entry& profile = target.in.profiles.get(target.object);
   setReceiverUniforms(program, target.in.frame, target.in.geometry.samples(), target.object);
   program.set("level", level);
+  program.set("anyLobe", level > 0);
   program.set("eta", target.in.frame.objects[target.object].medium.eta);
   program.set("piC", profile.piC);
 }
