@@ -188,12 +188,15 @@ std::string choosing(const std::string& method) {
 TEST_F(View, VolumeTakesThePlaceOfMatchedWhenItIsSolved) {
   const Result result = play("stone", "key g\nwait rest\nscreenshot matched.png\n" + choosing("volume") +
                                           "drag @cells:0.45,0.5 @cells:0,0.5\nwait rest\n"
-                                          "screenshot volume.png\ndrop disc\nwait rest\n");
+                                          "screenshot volume.png\n"
+                                          "drag @picture:0.3,0.5 @picture:0.7,0.5 right 12\nwait rest\n"
+                                          "screenshot turned.png\ndrop disc\nwait rest\n");
   ASSERT_EQ(result.status, 0) << result.err;
   // Another light inside, but the same object; and an open one has no inside.
   const double changed = difference(shot("matched.png"), shot("volume.png"), {0.2, 0.2, 0.8, 0.8});
   EXPECT_GT(changed, 1);
   EXPECT_LT(changed, 40);
+  EXPECT_GT(difference(shot("volume.png"), shot("turned.png"), {0.2, 0.2, 0.8, 0.8}), 1);
   EXPECT_NE(result.err.find("shown by matched instead"), std::string::npos) << result.err;
 }
 
