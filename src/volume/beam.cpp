@@ -132,9 +132,11 @@ void Beamer::enterLayer(Beam& beam, const Surface::Sample& sample, float cosine,
   const float way = std::fmin(length, sample.depth / cosine);
   const double end = double(way * cosine), depth = std::max(end, double(sample.depth));
   const glm::vec3 pass = glm::exp(-sigma_ * way);
-  const glm::vec3 x = glm::max(sigma_ * way, glm::vec3(1e-2f)), through = glm::exp(-x);
-  const glm::vec3 mean =
-      1.0f / x - through / (1.0f - through);  // of the collisions' depths, over the layer's
+  glm::vec3 x;
+  for (int c = 0; c < 3; ++c)
+    x[c] = std::fmax(1e-2f, sigma_[c] * way + float(body().system.medium().channel[c].k * end));
+  // Of the depths of collisions that light leaves from, over the layer's.
+  const glm::vec3 through = glm::exp(-x), mean = 1.0f / x - through / (1.0f - through);
   const glm::vec3 albedo = albedoAt(mean * float(end));
   const glm::vec3 scattered = beam.flux * (1.0f - pass) * albedo;
   glm::vec3 leaving, staying;

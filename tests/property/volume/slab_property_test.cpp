@@ -64,9 +64,9 @@ Shares middleOf(VolumeSolver& solver, const Mesh& mesh) {
 }
 
 /// Material, g (with equal sigma_sp), thickness in mm.
-class SlabProperty : public testing::TestWithParam<std::tuple<const char*, double, double>> {};
+class SlabLadder : public testing::TestWithParam<std::tuple<const char*, double, double>> {};
 
-TEST_P(SlabProperty, ReflectsAndTransmitsAsTransportSays) {
+TEST_P(SlabLadder, ReflectsAndTransmitsAsTransportSays) {
   const auto [material, g, thickness] = GetParam();
   constexpr double kShape = 0.01;  // thickness over width: less than a cell, so that the walls are far
   Scene scene;
@@ -94,7 +94,26 @@ TEST_P(SlabProperty, ReflectsAndTransmitsAsTransportSays) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Ladder, SlabProperty,
+TEST(SlabProperty, TheFirstPictureOfAThickSlabReflectsAsTransportSays) {
+  for (const char* material : {"skin1", "fig6", "marble"}) {
+    constexpr double kThickness = 60, kShape = 0.1;  // 6 cells
+    Scene scene;
+    scene.objects.push_back({.mesh = wideSlab(kShape), .size = kThickness / kShape});
+    const Coefficients& medium = scene.objects[0].material.medium = findMaterial(material, "").coefficients;
+    scene.lights.push_back(ParallelLight{.azimuth = 0, .elevation = 0, .irradiance = Rgb(1)});
+    VolumeSolver solver;
+    solver.update(scene, {});
+    const Rgb is = middleOf(solver, *scene.objects[0].mesh).reflected;
+    const SlabResult truth = simulateSlab({.medium = medium, .thickness = kThickness, .photons = 100'000});
+    for (int c = 0; c < 3; ++c) {
+      const double R = truth.diffuse_reflectance.value[c];
+      EXPECT_NEAR(is[c], R, 0.015 * R + 3 * truth.diffuse_reflectance.standardError[c])
+          << material << " " << c;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, SlabLadder,
                          testing::Combine(testing::Values("fig6", "skin1"), testing::Values(0.0, 0.8),
                                           testing::Values(0.1, 0.3, 1.0, 3.0, 10.0)));
 
