@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "controls.h"
 #include "lychnite/base/units.h"
@@ -58,6 +59,16 @@ void chooseMap(Ui& ui, RenderSettings& settings) {
     return;
   settings.mapSize = index == 0 ? usual.mapSize : sizes[size_t(index)];
   settings.mostMapSize = index == 0 ? usual.mostMapSize : settings.mapSize;
+}
+
+void drawResolution(PanelContext& context) {
+  ViewState& state = context.session.state();
+  double percent = 100 * state.resolution;
+  if (context.ui.slider("Resolution, %",
+                        "Of the picture at rest, over the window's own along each side. In motion it is "
+                        "coarser where the machine is slow.",
+                        percent, 20, 100, "%.0f"))
+    state.resolution = std::round(percent) / 100;
 }
 
 void drawTone(PanelContext& context) {
@@ -204,6 +215,7 @@ void drawMethodSection(PanelContext& context) {
   ui.slider("Along the ray", "Samples of single scattering along the refracted eye ray.",
             settings.singleSamples, 1, 64);
   chooseMap(ui, settings);
+  drawResolution(context);
   ui.check("Multiple", "Light scattered more than once.", settings.components.multiple);
   ImGui::SameLine();
   ui.check("Single", "Light scattered once.", settings.components.single);

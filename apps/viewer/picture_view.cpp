@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "lychnite/base/error.h"
@@ -258,8 +259,11 @@ bool PictureView::compares(Source source) const {
   return compare_.mode != CompareView::Mode::kOff && (compare_.left == source || compare_.right == source);
 }
 
-void PictureView::update(const Request& request) {
-  const ViewState& state = *request.state;
+void PictureView::update(const Request& asked) {
+  const ViewState& state = *asked.state;
+  Request request = asked;
+  request.pixels =
+      glm::max(glm::ivec2(glm::round(glm::dvec2(asked.pixels) * state.resolution)), glm::ivec2(1));
   compare_ = state.compare;
   const ViewState variant = compares(Source::kVariant) ? applied(state.variant, state) : ViewState{};
   std::string key = pictureKey(state, request.pixels);

@@ -124,7 +124,7 @@ class PictureView {
     bool judge = false;  ///< the sampler's error is asked for
   };
   /// Draws what the request needs that is not there yet.
-  void update(const Request& request);
+  void update(const Request& asked);
   /// Puts it on the window. Nothing before the first update().
   void show(const gpu::Framebuffer& target, const Area& area, const ViewState& state);
 

@@ -61,8 +61,8 @@ std::string fingerprint(const ViewState& state) {
   text += fmt::format("\n{} {}\n", toneCurveName(state.toneMapping.curve), state.toneMapping.exposure);
   text += variantKey(state.variant);
   text += fmt::format("\n{} {} {} {} {}\n", int(c.mode), int(c.left), int(c.right), c.wipe, c.full);
-  text += fmt::format("{} {} {} {} {}\n", int(state.inspect.layer), state.inspect.light,
-                      state.inspect.mapLevel, state.inspect.samples, state.ruler);
+  text += fmt::format("{} {} {} {} {} {}\n", int(state.inspect.layer), state.inspect.light,
+                      state.inspect.mapLevel, state.inspect.samples, state.ruler, state.resolution);
   return text;
 }
 

@@ -51,6 +51,7 @@ struct ViewState {
   CompareView compare;
   Inspect inspect;
   bool ruler = true;
+  double resolution = 1;  ///< of the picture at rest: pixels over the window's along each side, in (0, 1]
 };
 
 /// The object that sizes and materials mean: the first translucent one, else the first.

@@ -28,6 +28,21 @@ TEST(ViewState, AVariantChangesWhatItSaysAndNothingElse) {
   EXPECT_EQ(std::get<PointLight>(other.scene.lights[2]).position.x, 200);  // the light keeps its look
 }
 
+TEST(ViewState, TheFingerprintTellsWhatIsShownApart) {
+  const ViewState state = sphereView();
+  const auto changed = [&](const auto& change) {
+    ViewState other = state;
+    change(other);
+    return fingerprint(other) != fingerprint(state);
+  };
+  EXPECT_FALSE(changed([](ViewState&) {}));
+  EXPECT_TRUE(changed([](ViewState& s) { s.resolution = 0.5; }));
+  EXPECT_TRUE(changed([](ViewState& s) { s.ruler = false; }));
+  EXPECT_TRUE(changed([](ViewState& s) { s.compare.full = 0.1; }));
+  EXPECT_TRUE(changed([](ViewState& s) { s.settings.mapSize = 256; }));
+  EXPECT_TRUE(changed([](ViewState& s) { s.scene.objects[0].material.roughness = 0.9; }));
+}
+
 TEST(ViewState, TheSubjectIsTheFirstTranslucentObject) {
   Scene scene = sphereView().scene;
   scene.objects.push_back(scene.objects[0]);
