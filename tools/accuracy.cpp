@@ -53,8 +53,7 @@ Column columnOf(const std::string& name) {
     if (name == profileName(kind))
       return {name, Method::kHierarchical, kind, kind == ProfileKind::kBetterDipole};
   if (name == "tabulated-two-up") return {name, Method::kHierarchical, ProfileKind::kTabulated, true};
-  const Column column{name, parseMethod(name, "--methods"), ProfileKind::kDipole, name == "volume"};
-  return column;
+  return {name, parseMethod(name, "--methods"), ProfileKind::kDipole, false};
 }
 
 struct Cell {
@@ -169,7 +168,8 @@ class Study {
   std::vector<glm::dvec3> values(const Cell& cell, const Column& column, int pixels) {
     RenderSettings settings = settingsOf(column.method, pixels);
     settings.profile = column.profile;
-    const bool makesWhole = column.method == Method::kHierarchical || column.method == Method::kDipole;
+    const bool makesWhole = column.method == Method::kHierarchical || column.method == Method::kDipole ||
+                            column.method == Method::kVolume;
     if (column.fromSecond) return valuesOf(maker_.render(sceneOf(cell), settings), "");
     if (makesWhole) {
       settings.components.multiple = false;
