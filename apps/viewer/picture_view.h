@@ -141,6 +141,8 @@ class PictureView {
   bool settled() const { return settled_; }
   /// A solver makes the picture better and better.
   bool refines() const { return !live_.label().empty() || !variant_.label().empty(); }
+  /// The picture is a solver's that follows a scene in motion: frames alone make it no newer.
+  bool follows() const { return live_.shownScene() && !live_.complete(); }
   /// The last update() drew; and how long its frame took, for the pace of the next ones.
   bool drew() const { return drew_; }
   void frameTook(double ms);

@@ -29,6 +29,7 @@ constexpr double kBarHeight = 64;          // at scale 1
 constexpr int kFramesAfterInput = 3;       // a control may need some to settle
 constexpr double kPlayedFrame = 1 / 60.0;  // seconds that a frame of a script stands for
 constexpr double kSlowSeconds = 0.1;
+constexpr double kFollowSeconds = 1 / 30.0;  // between frames while the processor is the picture's
 constexpr size_t kKeptFrames = 120;
 constexpr size_t kMostTimed = 100000;  // frames in motion, for the log
 
@@ -255,7 +256,8 @@ bool Viewer::slow() const {
 
 void Viewer::run() {
   while (!quit_ && !window_.closing() && !hands_.quit()) {
-    const double wait = quick() && window_.visible() ? 0
+    const bool follows = !player_ && view_.follows();
+    const double wait = quick() && window_.visible() ? (follows ? kFollowSeconds : 0)
                         : player_                    ? kPlayedFrame
                         : slow()                     ? kSlowSeconds
                                                      : 2 * kSlowSeconds;
