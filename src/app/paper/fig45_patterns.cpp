@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "app/paper/canvas.h"
 #include "app/paper/light_space.h"
@@ -11,7 +12,6 @@
 #include "lychnite/base/atomic_file.h"
 #include "lychnite/base/units.h"
 #include "lychnite/optics/materials.h"
-#include "technique/multiple/lattice.h"
 
 namespace lychnite::paper {
 namespace {
@@ -20,6 +20,7 @@ constexpr double kSizes[] = {1, 10, 100};  // mm
 constexpr int kSpiralSamples = 48;
 constexpr ParallelLight kLight{.azimuth = 60, .elevation = 30};
 constexpr const char* kMaterial = "fig6";
+constexpr int kReceivers = 24;    // pixels along a side of the picture whose samples are looked at
 constexpr double kPicture = 320;  // points
 
 Scene sceneOf(Studio& studio, double size) {
@@ -31,25 +32,17 @@ Scene sceneOf(Studio& studio, double size) {
   return scene;
 }
 
-struct Pattern {
-  const char* name;
-  std::vector<Sample> (*samples)(const FluxMap& map, const glm::dvec2& receiver, double size);
-};
+constexpr Method kMethods[] = {Method::kFixed, Method::kAdaptive, Method::kMatched};
 
-const Coefficients& medium() {
-  return findMaterial(kMaterial, "paper").coefficients;
+RenderSettings settingsOf(Method method, int mapSize) {
+  RenderSettings settings;
+  settings.method = method;
+  settings.width = settings.height = kReceivers;
+  settings.mapSize = settings.mostMapSize = mapSize;
+  settings.multipleSamples = kSpiralSamples;
+  settings.components = {.multiple = true, .single = false, .surface = false};
+  return settings;
 }
-
-const Pattern kPatterns[] = {
-    {"fixed",
-     [](const FluxMap& map, const glm::dvec2& receiver, double) {
-       return latticeSamples(map, receiver, latticeSlope({}, medium(), latticeReferenceSize(medium())));
-     }},
-    {"adaptive", [](const FluxMap& map, const glm::dvec2& receiver,
-                    double size) { return latticeSamples(map, receiver, latticeSlope({}, medium(), size)); }},
-    {"matched", [](const FluxMap& map, const glm::dvec2& receiver, double) {
-       return spiralSamples(map, receiver, *makeDipole(medium()), kSpiralSamples);
-     }}};
 
 /// Darker for coarser levels; the widths differ, too.
 Stroke strokeOf(double level) {
@@ -58,37 +51,36 @@ Stroke strokeOf(double level) {
 }
 
 /// The whole map, or a part of it around the receiver `zoom` times as large.
-void draw(const FluxMap& map, const glm::dvec2& receiver, const std::vector<Sample>& samples, double zoom,
-          const std::filesystem::path& path) {
+void draw(const FluxMap& map, const Receiver& receiver, double zoom, const std::filesystem::path& path) {
   writeAtomically(path, [&](const std::filesystem::path& temporary) {
     Canvas canvas(temporary, kPicture, kPicture);
     const double scale = kPicture / map.size() * zoom;
     const glm::dvec2 corner =
-        zoom > 1 ? glm::dvec2(receiver.x, map.size() - receiver.y) - 0.5 * kPicture / scale : glm::dvec2(0);
+        zoom > 1 ? glm::dvec2(receiver.place.x, map.size() - receiver.place.y) - 0.5 * kPicture / scale
+                 : glm::dvec2(0);
     const auto onPage = [&](const glm::dvec2& p) {
       return (glm::dvec2(p.x, map.size() - p.y) - corner) * scale;
     };
     canvas.clip({0, 0}, {kPicture, kPicture});
     canvas.picture(map.picture(), -corner * scale, glm::dvec2(map.size() * scale));
-    for (const Sample& sample : samples) {
+    for (const Sample& sample : receiver.samples) {
       const double side = std::sqrt(sample.area) * scale;
       canvas.rectangle(onPage(sample.place) - glm::dvec2(side / 2), glm::dvec2(side), strokeOf(sample.level));
       canvas.filledRectangle(onPage(sample.place) - glm::dvec2(0.9), glm::dvec2(1.8),
                              strokeOf(sample.level).colour);
     }
-    canvas.marker(Marker::kCross, onPage(receiver), 9, glm::vec3(0));
+    canvas.marker(Marker::kCross, onPage(receiver.place), 9, glm::vec3(0));
     canvas.unclip();
     canvas.rectangle({0.5, 0.5}, {kPicture - 1, kPicture - 1}, {.width = 0.8});
     canvas.finish();
   });
 }
 
-/// The lit place nearest to a little off the map's middle.
-glm::dvec2 shownReceiver(const FluxMap& map) {
+/// The one nearest to a little off the map's middle.
+const Receiver& shownReceiver(const FluxMap& map, const std::vector<Receiver>& receivers) {
   const glm::dvec2 wanted = glm::dvec2(0.53, 0.42) * double(map.size());
-  const std::vector<glm::dvec2> lit = litPlaces(map, 64);
-  return *std::min_element(lit.begin(), lit.end(), [&](const glm::dvec2& a, const glm::dvec2& b) {
-    return glm::distance(a, wanted) < glm::distance(b, wanted);
+  return *std::min_element(receivers.begin(), receivers.end(), [&](const Receiver& a, const Receiver& b) {
+    return glm::distance(a.place, wanted) < glm::distance(b.place, wanted);
   });
 }
 
@@ -101,14 +93,12 @@ std::string levelsText(const std::vector<Sample>& samples) {
   return fmt::format("levels {:.2g} to {:.2g}", low, high);
 }
 
-/// The mean over lit receivers.
-Coverage meanCoverage(const FluxMap& map, const Pattern& pattern, double size) {
+Coverage meanCoverage(const FluxMap& map, const std::vector<Receiver>& receivers) {
   Coverage sum;
-  const std::vector<glm::dvec2> places = litPlaces(map, 24);
-  for (const glm::dvec2& place : places) {
-    const Coverage one = coverageOf(map, pattern.samples(map, place, size));
-    sum.area += one.area / double(places.size());
-    sum.flux += one.flux / double(places.size());
+  for (const Receiver& receiver : receivers) {
+    const Coverage one = coverageOf(map, receiver.samples);
+    sum.area += one.area / double(receivers.size());
+    sum.flux += one.flux / double(receivers.size());
   }
   return sum;
 }
@@ -125,7 +115,8 @@ void makePatterns(Studio& studio, Report& report) {
   Table table{
       .name = "coverage",
       .caption =
-          "What the cells of the patterns see of the map, mean over receivers on the lit surface: the "
+          "What the cells of the patterns see of the map, mean over receivers on the lit surface, as the "
+          "shaders take them (`matched` takes more where the surface slants): the "
           "share of the lit texels that lie in a cell, and the flux that the cells stand for over all "
           "that enters (100 % loses and invents nothing).",
       .columns = {{"size, mm", "size_mm", 0},
@@ -133,20 +124,25 @@ void makePatterns(Studio& studio, Report& report) {
                   {"samples", "samples", 0},
                   {"lit texels covered, %", "covered_area", 1, 100},
                   {"flux, %", "flux", 1, 100}}};
-  std::vector<std::vector<Picture>> rows(std::size(kPatterns));
+  std::vector<std::vector<Picture>> rows(std::size(kMethods));
   for (const double size : kSizes) {
-    const FluxMap map(studio.renderer(), sceneOf(studio, size), mapSize);
-    const glm::dvec2 receiver = shownReceiver(map);
-    for (size_t p = 0; p < std::size(kPatterns); ++p) {
-      const Pattern& pattern = kPatterns[p];
-      const std::vector<Sample> samples = pattern.samples(map, receiver, size);
-      const std::string file = fmt::format("{}-{:g}mm.svg", pattern.name, size);
-      draw(map, receiver, samples, size > 50 ? 4 : 1, studio.file(file));
-      rows[p].push_back(
-          {file, "", fmt::format("{}, {}{}", pattern.name, formatLength(size), size > 50 ? ", 4 times" : ""),
-           levelsText(samples)});
-      const Coverage coverage = meanCoverage(map, pattern, size);
-      table.rows.push_back({size, pattern.name, double(samples.size()), coverage.area, coverage.flux});
+    const Scene scene = sceneOf(studio, size);
+    const FluxMap map(studio.renderer(), scene, mapSize);
+    for (size_t m = 0; m < std::size(kMethods); ++m) {
+      const std::string name = methodName(kMethods[m]);
+      const std::vector<Receiver> receivers =
+          receiversOf(studio.renderer(), scene, settingsOf(kMethods[m], mapSize));
+      const Receiver& shown = shownReceiver(map, receivers);
+      const std::string file = fmt::format("{}-{:g}mm.svg", name, size);
+      draw(map, shown, size > 50 ? 4 : 1, studio.file(file));
+      rows[m].push_back({file, "",
+                         fmt::format("{}, {}{}", name, formatLength(size), size > 50 ? ", 4 times" : ""),
+                         levelsText(shown.samples)});
+      size_t samples = 0;
+      for (const Receiver& receiver : receivers) samples += receiver.samples.size();
+      const Coverage coverage = meanCoverage(map, receivers);
+      table.rows.push_back(
+          {size, name, double(samples) / double(receivers.size()), coverage.area, coverage.flux});
     }
     studio.step(formatLength(size));
   }

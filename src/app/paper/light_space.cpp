@@ -2,62 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 
-#include "technique/multiple/lattice.h"
-#include "technique/multiple/spiral.h"
 #include "technique/renderer_textures.h"
 
 namespace lychnite::paper {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr float kDark = 1e-4f;  // a texel with less flux shows no surface
-
-double radialShare(double r, double scale) {
-  return r / (r + scale);
-}
-
-double radiusOfShare(double share, double scale) {
-  return scale * share / std::max(1e-6, 1 - share);
-}
-
-double distanceToCircle(double e0, double rc, double cosine, double sine) {
-  const double s = e0 * sine;
-  return e0 * cosine + std::sqrt(std::max(0.0, rc * rc - s * s));
-}
-
-/// The spiral in mm around a receiver at `p` from the axis of a circle of radius `rc`.
-struct Spiral {
-  double scale, reach, rc, e0, e;
-  glm::dvec2 inwards{1, 0};
-
-  Spiral(const Profile& profile, const glm::dvec2& p, double radius)
-      : scale(spiralScale(profile)),
-        reach(spiralReach(profile)),
-        rc(radius),
-        e0(std::min(glm::length(p), 0.999 * radius)) {
-    if (e0 > 1e-6) inwards = -p / glm::length(p);
-    const double far = radialShare(std::min(rc + e0, reach), scale);
-    const double near = radialShare(std::min(rc - e0, reach), scale);
-    const double wanted = 0.9 * (far - near) / std::max(1e-9, far + near);
-    e = wanted / (1 + wanted);
-  }
-
-  /// Offset and area of cell `i` of `count`.
-  std::pair<glm::dvec2, double> cell(int i, int count) const {
-    const double turns = 0.6180339887498949 * i - std::atan2(inwards.y, inwards.x) / (2 * kPi) - 0.5;
-    const double even = 1 / (1 + e * std::cos(2 * kPi * turns)), squeeze = std::sqrt(1 - e * e);
-    const double cosine = (std::cos(2 * kPi * turns) + e) * even;
-    const double sine = squeeze * std::sin(2 * kPi * turns) * even;
-    const double share = radialShare(std::min(distanceToCircle(e0, rc, cosine, sine), reach), scale);
-    const double a = radiusOfShare(share * i / count, scale);
-    const double q = radiusOfShare(share * (i + 0.5) / count, scale);
-    const double b = radiusOfShare(share * (i + 1) / count, scale);
-    return {q * (cosine * inwards + sine * glm::dvec2(-inwards.y, inwards.x)),
-            kPi * (b * b - a * a) * squeeze * even};
-  }
-};
 
 }  // namespace
 
@@ -70,7 +21,6 @@ FluxMap::FluxMap(Renderer& renderer, const Scene& scene, int size) : size_(size)
   const LightMapPass::Map& map = RendererTextures::maps(renderer).get(0, 0);
   const double unit = scene.objects[0].size;  // of the renderer: the largest translucent object
   texel_ = 2 * map.view.halfWidth * unit / size;
-  radius_ = boundingSphere(scene.objects[0]).radius;
   const std::vector<float> moments = map.moments->download();
   levels_.emplace_back();
   for (size_t i = 0; i < moments.size(); i += 4) levels_[0].push_back(moments[i]);
@@ -106,24 +56,23 @@ Image FluxMap::picture() const {
   return image;
 }
 
-std::vector<Sample> latticeSamples(const FluxMap& map, const glm::dvec2& receiver, double slope) {
-  std::vector<Sample> samples;
-  for (const glm::vec4& cell : makeLattice(slope, int(std::log2(map.size()))))
-    samples.push_back({receiver + glm::dvec2(cell.x, cell.y), double(cell.z), double(cell.w)});
-  return samples;
-}
-
-std::vector<Sample> spiralSamples(const FluxMap& map, const glm::dvec2& receiver, const Profile& profile,
-                                  int count) {
-  const glm::dvec2 p = (receiver - glm::dvec2(0.5 * map.size())) * map.texel();
-  const Spiral spiral(profile, p, 1.05 * map.boundRadius() + map.texel());
-  std::vector<Sample> samples;
-  for (int i = 0; i < count; ++i) {
-    const auto [offset, area] = spiral.cell(i, count);
-    const double texels = area / (map.texel() * map.texel());
-    samples.push_back({receiver + offset / map.texel(), std::max(0.0, 0.5 * std::log2(texels) - 1), texels});
-  }
-  return samples;
+std::vector<Receiver> receiversOf(Renderer& renderer, Scene scene, RenderSettings settings) {
+  const ParallelLight& light = std::get<ParallelLight>(scene.lights.at(0));
+  scene.camera = OrbitCamera{.azimuth = light.azimuth, .elevation = light.elevation, .fov = 2};
+  renderer.draw(scene, settings);
+  std::vector<Receiver> receivers;
+  for (int y = 0; y < settings.height; ++y)
+    for (int x = 0; x < settings.width; ++x) {
+      const auto seen = RendererTextures::samplesAt(renderer, scene, settings, {x, y}, 0);
+      if (!seen) continue;
+      Receiver receiver{.place = seen->receiverUv * double(settings.mapSize)};
+      for (const SeenSample& sample : seen->samples) {
+        const double side = sample.width * settings.mapSize;
+        receiver.samples.push_back({sample.uv * double(settings.mapSize), sample.level, side * side});
+      }
+      receivers.push_back(std::move(receiver));
+    }
+  return receivers;
 }
 
 Coverage coverageOf(const FluxMap& map, const std::vector<Sample>& samples) {
@@ -150,16 +99,6 @@ Coverage coverageOf(const FluxMap& map, const std::vector<Sample>& samples) {
   coverage.area = covered / std::max(lit, 1.0);
   coverage.flux /= std::max(map.total(), 1e-12);
   return coverage;
-}
-
-std::vector<glm::dvec2> litPlaces(const FluxMap& map, int perSide) {
-  std::vector<glm::dvec2> places;
-  for (int y = 0; y < perSide; ++y)
-    for (int x = 0; x < perSide; ++x) {
-      const glm::dvec2 place = glm::dvec2(x + 0.5, y + 0.5) * (double(map.size()) / perSide);
-      if (map.mean(place, 0) > double(kDark)) places.push_back(place);
-    }
-  return places;
 }
 
 }  // namespace lychnite::paper

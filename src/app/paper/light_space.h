@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "lychnite/image/image.h"
-#include "lychnite/optics/profile.h"
 #include "lychnite/technique/renderer.h"
 
 namespace lychnite::paper {
@@ -17,8 +16,7 @@ class FluxMap {
   FluxMap(Renderer& renderer, const Scene& scene, int size);
 
   int size() const { return size_; }
-  double texel() const { return texel_; }         ///< mm
-  double boundRadius() const { return radius_; }  ///< of the object, mm
+  double texel() const { return texel_; }  ///< mm
   /// Mean over the texel of a level (2^level texels wide) that holds a place, in texels of level 0.
   double mean(const glm::dvec2& place, int level) const;
   double total() const { return mean(glm::dvec2(0.5 * size_), 30) * size_ * size_; }
@@ -27,7 +25,7 @@ class FluxMap {
 
  private:
   int size_;
-  double texel_ = 1, radius_ = 1;
+  double texel_ = 1;
   std::vector<std::vector<float>> levels_;
 };
 
@@ -38,11 +36,14 @@ struct Sample {
   double area = 1;  ///< texels of level 0
 };
 
-/// The 49 cells of the paper's lattice around a receiver.
-std::vector<Sample> latticeSamples(const FluxMap& map, const glm::dvec2& receiver, double slope);
-/// The spiral of `matched` around a receiver on lit surface (docs/physics.md, "The matched sampler").
-std::vector<Sample> spiralSamples(const FluxMap& map, const glm::dvec2& receiver, const Profile& profile,
-                                  int count);
+/// A lit surface point, in texels of level 0 on the map, and the samples that a method takes for it.
+struct Receiver {
+  glm::dvec2 place{0};
+  std::vector<Sample> samples;
+};
+/// Those of the pixels of a picture in which the scene is seen from its only, parallel, light: asked of the
+/// method's own shader. `settings` give the method and how many pixels.
+std::vector<Receiver> receiversOf(Renderer& renderer, Scene scene, RenderSettings settings);
 
 /// What a pattern sees of the map.
 struct Coverage {
@@ -51,8 +52,5 @@ struct Coverage {
 };
 /// Cells as squares of their area.
 Coverage coverageOf(const FluxMap& map, const std::vector<Sample>& samples);
-
-/// Lit places spread over the map.
-std::vector<glm::dvec2> litPlaces(const FluxMap& map, int perSide);
 
 }  // namespace lychnite::paper
