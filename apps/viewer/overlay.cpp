@@ -64,7 +64,12 @@ void drawRuler(PanelContext& context, ImDrawList& draw, const Area& area) {
   draw.AddLine(toIm(*first), toIm(*last), kFaint, s);
   const double step = gridSpacing(scene);
   const int ticks = int(subject.size / step + 1e-6);
-  const int every = glm::distance(*first, *last) / (subject.size / step) > 36 * s ? 1 : 5;
+  const ImVec2 widest =
+      ImGui::CalcTextSize(formatLength(std::stod(fmt::format("{:.6g}", ticks * step))).c_str());
+  const glm::dvec2 way = glm::abs(glm::normalize(*last - *first + glm::dvec2(1e-9, 0)));
+  const double room = glm::distance(*first, *last) / (subject.size / step),
+               needed = glm::dot(way, fromIm(widest)) + 10 * double(s);
+  const int every = room > needed ? 1 : 2 * room > needed ? 2 : 5;
   for (int i = 0; i <= ticks; ++i) {
     const bool labelled = i % every == 0;
     const glm::dvec3 at = ruler->origin + ruler->along * (i * step);

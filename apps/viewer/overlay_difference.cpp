@@ -1,14 +1,20 @@
 // The legend of the difference view: its false colours and the relative errors that they stand for.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "controls.h"
 
 namespace lychnite::viewer {
 namespace {
 
-constexpr double kWidth = 12, kHeight = 150, kGap = 12, kTick = 4;  // at scale 1
+constexpr double kThickness = 12, kGap = 12, kTick = 4;  // at scale 1
+constexpr double kUpright = 150, kLying = 220;           // lengths, likewise
+constexpr double kBeside =
+    160;  // by so much a picture must be wider than high to have room beside the object
+constexpr ImU32 kInk = IM_COL32(178, 180, 184, 255);
 
 /// As heat() of shaders/view/display.frag.
 constexpr int kColours[5][3] = {{0, 0, 4}, {81, 18, 124}, {183, 55, 121}, {252, 137, 97}, {252, 253, 191}};
@@ -24,32 +30,69 @@ double niceStep(double full) {
   return decade * (leading < 2 ? 0.2 : leading < 5 ? 0.5 : 1);
 }
 
-void drawTick(ImDrawList& draw, const glm::dvec2& at, double s, const std::string& label) {
-  constexpr ImU32 kInk = IM_COL32(178, 180, 184, 255);
-  draw.AddLine(toIm(at - glm::dvec2(kTick * s, 0)), toIm(at), kInk, float(s));
-  const ImVec2 size = ImGui::CalcTextSize(label.c_str());
-  draw.AddText({float(at.x - (kTick + 4) * s) - size.x, float(at.y) - 0.5f * size.y}, kInk, label.c_str());
+/// The bar in the lower right corner: upright, or lying where the object fills the width.
+struct Bar {
+  glm::dvec2 low{0}, high{0}, along{0};  ///< the window's corners; from the scale's beginning to its end
+  glm::dvec2 at(double share) const {
+    return (along.x > 0 ? low : glm::dvec2(low.x, high.y)) + share * along;
+  }
+};
+
+Bar barOf(const Area& area, double s) {
+  Bar bar;
+  bar.high = area.high - glm::dvec2(kGap * s);
+  if (area.size().x > area.size().y + kBeside * s)
+    bar.along = {0, -std::min(kUpright * s, 0.5 * area.size().y)};
+  else
+    bar.along = {std::min(kLying * s, area.size().x - 4 * kGap * s), 0};
+  const glm::dvec2 size =
+      bar.along.x > 0 ? glm::dvec2(bar.along.x, kThickness * s) : glm::dvec2(kThickness * s, -bar.along.y);
+  bar.low = bar.high - size;
+  return bar;
+}
+
+void drawColours(ImDrawList& draw, const Bar& bar) {
+  const bool lies = bar.along.x > 0;
+  for (int i = 0; i < 4; ++i) {
+    const glm::dvec2 a = bar.at(0.25 * i), b = bar.at(0.25 * (i + 1));
+    const ImU32 from = colour(i), to = colour(i + 1);
+    if (lies)
+      draw.AddRectFilledMultiColor(toIm(a), {float(b.x), float(bar.high.y)}, from, to, to, from);
+    else
+      draw.AddRectFilledMultiColor(toIm(b), {float(bar.high.x), float(a.y)}, to, to, from, from);
+  }
+}
+
+/// Before the bar: left of an upright one, above a lying one.
+void drawTick(ImDrawList& draw, const Bar& bar, double share, double s, const std::string& label) {
+  const bool lies = bar.along.x > 0;
+  const glm::dvec2 at = bar.at(share), out = lies ? glm::dvec2(0, -1) : glm::dvec2(-1, 0);
+  const glm::dvec2 size = fromIm(ImGui::CalcTextSize(label.c_str()));
+  draw.AddLine(toIm(at), toIm(at + out * (kTick * s)), kInk, float(s));
+  const glm::dvec2 centre = at + out * ((kTick + 3) * s + 0.5 * (lies ? size.y : size.x));
+  glm::dvec2 from = centre - 0.5 * size;
+  if (lies) from.x = std::min(from.x, bar.high.x + 0.5 * kGap * s - size.x);
+  draw.AddText(toIm(from), kInk, label.c_str());
 }
 
 }  // namespace
 
 void drawColourBar(PanelContext& context, const Area& area) {
-  const double s = context.ui.scale(), height = std::min(kHeight * s, 0.5 * area.size().y);
-  const glm::dvec2 high = area.high - glm::dvec2(kGap * s), low = high - glm::dvec2(kWidth * s, height);
+  const double s = context.ui.scale();
+  const Bar bar = barOf(area, s);
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
-  for (int i = 0; i < 4; ++i) {
-    const double top = high.y - height * (i + 1) / 4, bottom = high.y - height * i / 4;
-    draw.AddRectFilledMultiColor({float(low.x), float(top)}, {float(high.x), float(bottom)}, colour(i + 1),
-                                 colour(i + 1), colour(i), colour(i));
-  }
-  draw.AddRect(toIm(low), toIm(high), IM_COL32(128, 130, 134, 255), 0, 0, float(s));
-  context.ui.mark("colour-bar", {low, high});
-  const double full = 100 * context.session.state().compare.full;
-  const double step = niceStep(full), room = double(ImGui::GetTextLineHeight()) / height * full;
-  const int every = step < room ? 2 : 1;
+  drawColours(draw, bar);
+  draw.AddRect(toIm(bar.low), toIm(bar.high), IM_COL32(128, 130, 134, 255), 0, 0, float(s));
+  context.ui.mark("colour-bar", {bar.low, bar.high});
+  const double full = 100 * context.session.state().compare.full, step = niceStep(full);
+  const std::string last = fmt::format("≥ {:.3g} %", full);
+  const glm::dvec2 text = fromIm(ImGui::CalcTextSize(last.c_str()));
+  const double needed = bar.along.x > 0 ? text.x + 8 * s : text.y;
+  const double room = needed / glm::length(bar.along) * full;  // in the scale's unit
+  const int every = int(std::ceil(room / step));
   for (int i = 0; i * step < full - room; i += every)
-    drawTick(draw, {low.x, high.y - height * i * step / full}, s, fmt::format("{:.3g} %", i * step));
-  drawTick(draw, low, s, fmt::format("≥ {:.3g} %", full));
+    drawTick(draw, bar, i * step / full, s, fmt::format("{:.3g} %", i * step));
+  drawTick(draw, bar, 1, s, last);
 }
 
 }  // namespace lychnite::viewer

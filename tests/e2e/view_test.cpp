@@ -153,12 +153,13 @@ TEST_F(View, TheWipeShowsTheVariantOnItsRight) {
   EXPECT_LT(difference(before, wipe, {0, 0.1, 0.7, 0.9}), 0.01);
   EXPECT_GT(difference(before, wipe, {0.77, 0.3, 1, 0.7}), 0.05);
   EXPECT_GT(difference(before, shot("difference.png"), {0.3, 0.3, 0.7, 0.7}), 5);
-  // The colour bar in the lower right corner, from its lower end to its upper one.
+  // The colour bar along the lower edge, from its beginning to its end.
   const Image bar = shot("difference.png");
-  const int red[] = {0, 81, 183, 252, 252};
+  const int red[] = {0, 81, 183, 252, 252}, blue[] = {4, 124, 121, 97, 191};
   for (int i = 0; i < 5; ++i) {
-    const int y = 282 - int(36.25 * i);
-    EXPECT_NEAR(255 * srgbFromLinear(bar.rgb(size_t(y) * kWidth + 222).r), red[i], 12) << i;
+    const glm::vec3 shown = bar.rgb(size_t(278) * kWidth + size_t(38 + 47 * i));
+    EXPECT_NEAR(255 * srgbFromLinear(shown.r), red[i], 12) << i;
+    EXPECT_NEAR(255 * srgbFromLinear(shown.b), blue[i], 12) << i;
   }
 }
 
