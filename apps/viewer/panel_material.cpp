@@ -78,15 +78,17 @@ void drawLibrary(PanelContext& context, Material& material) {
 }
 
 bool editCoefficients(Ui& ui, Coefficients& medium) {
-  bool changed = ui.sliders("\xcf\x83s, 1/mm",
-                            "Scattering coefficient sigma_s: how often light is scattered on each "
-                            "millimetre of its way, for red, green and blue.",
-                            medium.sigma_s, 0, kLargestSigma, "%.3g");
+  bool changed = ui.sliders(
+      "\xcf\x83s, 1/mm",
+      "Scattering coefficient sigma_s: how often light is scattered on each "
+      "millimetre of its way, for red, green and blue (Jensen et al. 2001 measured most of the library's).",
+      medium.sigma_s, 0, kLargestSigma, "%.3g");
   changed |= ui.sliders(
       "\xcf\x83"
       "a, 1/mm",
       "Absorption coefficient sigma_a: what share of the light is lost on each "
-      "millimetre. Small differences between the channels colour thick parts strongly.",
+      "millimetre. Small differences between the channels colour thick parts strongly (Beer's law: "
+      "exp(-sigma_a d) is left after d).",
       medium.sigma_a, 0, kLargestSigma, "%.3g");
   return changed;
 }
@@ -99,11 +101,11 @@ bool editColour(Ui& ui, Coefficients& medium) {
                 "What a thick piece reflects under white light. Turned into coefficients by van de "
                 "Hulst's inversion as fitted by Kulla & Conty 2017.",
                 colour);
-  changed |=
-      ui.sliders("Free path, mm",
-                 "Mean free path: how far light goes, on average, between two events of scattering "
-                 "or absorption. Things much larger than it look solid, things of its size glow through.",
-                 mfp, 0.001, 1000, "%.3g");
+  changed |= ui.sliders("Free path, mm",
+                        "Mean free path: how far light goes, on average, between two events of scattering "
+                        "or absorption. Things much larger than it look solid, things of its size glow "
+                        "through (Jensen et al. 2001).",
+                        mfp, 0.001, 1000, "%.3g");
   if (changed)
     medium = coefficientsFromColour(glm::clamp(colour, Rgb(0), Rgb(0.999)), glm::max(mfp, Rgb(1e-4)),
                                     medium.g, medium.eta);
@@ -181,8 +183,10 @@ void drawMaterialSection(PanelContext& context) {
       ui.slider("Index \xce\xb7", "Refractive index, inside over outside: water 1.33, wax 1.45, marble 1.5.",
                 material.medium.eta, 1, 2.5, "%.3f");
   if (changed) material.name = "custom";
-  ui.slider("Roughness", "Of the coat's surface: 0.02 polished, 1 matt (GGX, alpha = roughness squared).",
-            material.roughness, 0.02, 1, "%.2f");
+  ui.slider(
+      "Roughness",
+      "Of the coat's surface: 0.02 polished, 1 matt (GGX, Walter et al. 2007; alpha = roughness squared).",
+      material.roughness, 0.02, 1, "%.2f");
   if (!material.opaque) drawDerived(context, material, subject.size);
   copyAndPaste(context, material);
 }
