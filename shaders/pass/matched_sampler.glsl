@@ -107,12 +107,13 @@ struct Cell {
   float area;      // scene units, across the light
 };
 
-// From this one on a spiral's rings are narrow: their radii differ by less than a twentieth.
+// From this one on the rings of a spiral take one fetch of the kernel.
 const int kFirstNarrow = 10;
 
-// Mean of the kernel over the ring between two squared distances: of a wide ring by P; of a narrow one, where P's digits would
-// cancel, at the distances' geometric mean. That is exact where the kernel falls as their fourth power or not at all; between
-// the two it is off by less than 1/24 of the squared logarithm of a2 / b2.
+// Mean of the kernel over the ring between two squared distances: of a spiral's inner rings, which are wide, by P; of the
+// outer ones, where P's digits would cancel, at the distances' geometric mean. That is exact where the kernel falls as their
+// fourth power or not at all; between the two it is off by less than 1/24 of the squared logarithm of a2 / b2, and where it
+// falls faster there is little left of it.
 vec3 kernelMean(float a2, float b2, bool narrow) {
   if (narrow) return profileRd(sqrt(sqrt(a2 * b2)));
   float most = max(a2, b2);
