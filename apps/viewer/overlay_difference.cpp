@@ -80,6 +80,7 @@ void drawTick(ImDrawList& draw, const Bar& bar, double share, double s, const st
 void drawColourBar(PanelContext& context, const Area& area) {
   const double s = context.ui.scale();
   const Bar bar = barOf(area, s);
+  if (glm::length(bar.along) < 20 * s) return;  // no room for one
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   drawColours(draw, bar);
   draw.AddRect(toIm(bar.low), toIm(bar.high), IM_COL32(128, 130, 134, 255), 0, 0, float(s));

@@ -134,7 +134,8 @@ bool alike(const Scene& a, const Scene& b, const Image& picture, glm::ivec2 pixe
 /// Whether the volume's newest picture stays on the window while the scene moves on.
 bool LivePicture::keepsUp(const ViewState& state, const Wish& wish) {
   if (!volumeTexture_) return false;
-  const bool follows = volumePace_.follows(volumeImage_.get(), volumeBehind_, wish.seconds);
+  // At rest there is no pace: the full picture may take its time.
+  const bool follows = volumePace_.follows(volumeImage_.get(), volumeBehind_ && !wish.rest, wish.seconds);
   return follows && alike(volumeScene_, state.scene, *volumeImage_, wish.pixels) &&
          (!wish.compares || sameView(volumeScene_, state.scene));
 }
@@ -159,11 +160,13 @@ void LivePicture::updateVolume(const ViewState& state, const Wish& wish) {
     solving_ = true;
     return;
   }
-  if (!wish.rest) {
+  // Also of the scene that has just come to rest, until what is shown is of it.
+  const bool coarse = !wish.rest || (volumeBehind_ && keeps);
+  if (coarse) {
     settings.width = std::max(8, int(std::lround(wish.pixels.x * volumePace_.share())));
     settings.height = std::max(8, int(std::lround(wish.pixels.y * volumePace_.share())));
   }
-  if (wish.rest || volumeBehind_) volume_->want(state.scene, settings, !wish.rest);
+  if (wish.rest || volumeBehind_) volume_->want(state.scene, settings, coarse);
   const auto newest = volume_->newest();
   const bool current = newest && !newest->behind;
   const std::string obstacle = current ? newest->obstacle : volume_->problem();
@@ -172,7 +175,7 @@ void LivePicture::updateVolume(const ViewState& state, const Wish& wish) {
     problem_ = "volume: " + obstacle + "; shown by matched instead";
   if (newest && newest->image && newest->image != volumeImage_) takeVolume(*newest, state, wish);
   showsVolume_ = volumeTexture_ && obstacle_.empty() && (current || keeps);
-  solving_ = !(known && wish.rest);
+  solving_ = coarse || !known;
 }
 
 void LivePicture::takeVolume(const BackgroundVolume::Result& newest, const ViewState& state,

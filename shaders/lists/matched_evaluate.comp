@@ -22,8 +22,9 @@ void main() {
     Receiver receivers[4];
     ivec2 site = siteOf(sites[i]);
     int number = receiverOf(sites[i]);
-    loadReceivers(firstSample(site), receivers);
-    Receiver r = receivers[number];
+    // Another program listed it: a compiler may round the decision which samples share a receiver otherwise there.
+    int count = loadReceivers(firstSample(site), receivers);
+    Receiver r = receivers[clamp(number, 0, max(count, 1) - 1)];
     ivec2 at = level > 0 ? site : ivec2(site.x, (site.y - firstRow) * 4 + number);
     imageStore(evaluated, at, vec4(shownAs(r) * litRadiosity(view, r), 0.0));
   }

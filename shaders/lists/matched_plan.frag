@@ -35,6 +35,8 @@ bool sameSurface(Receiver r, ivec2 at, vec3 s, out float far) {
 
 // Value and distance of a coarser site; false where there is none or it lies on another piece of surface.
 bool neighbour(Receiver r, ivec2 at, out vec3 found, out float far) {
+  found = vec3(0.0);
+  far = 0.0;
   ivec2 last = textureSize(coarserValue, 0) - 1;
   if (at.x < 0 || at.y < 0 || at.x > last.x || at.y > last.y) return false;
   vec4 s = texelFetch(coarserSurface, at, 0);

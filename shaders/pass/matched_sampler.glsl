@@ -230,7 +230,6 @@ void addCell(inout Sum sum, Ground g, Cell c, bool narrow, bool outermost) {
 // The map is dark beyond its border, and its coarse levels fade there.
 vec3 patternRadiosity(Ground g, Spiral s, float cells) {
   Sum sum = Sum(vec3(0.0), vec3(0.0), 0.0, 0.0, vec3(1e30));
-  int wide = min(kFirstNarrow, int(cells));
   vec2 turn = turnOf(s, 0);
   int i = 0;
   for (; i < min(kFirstNarrow, int(cells)); ++i, turn = nextTurn(turn)) {
@@ -245,7 +244,8 @@ vec3 patternRadiosity(Ground g, Spiral s, float cells) {
   // missed so much that the estimate means nothing.
   float total = textureLod(moments, vec2(0.5), 30.0).x * g.width * g.width;
   float missed = total - sum.flux;
-  float taper = max(0.0, 1.0 - pow(missed / max(1e-9, 0.4 * total), 2.0));
+  float share = missed / max(1e-9, 0.4 * total);
+  float taper = max(0.0, 1.0 - share * share);
   vec3 beta = min(sum.weighted / max(1e-20, sum.weight), 1.5 * sum.faintest);
   return max(vec3(0.0), sum.radiosity + beta * (taper * missed));
 }

@@ -12,7 +12,7 @@ using VolumeRefiner = Refiner<BackgroundVolume::Result>;
 
 namespace {
 
-constexpr int kNiceness = 4;  // a third of what a window's own thread gets, where it wants all
+constexpr int kNiceness = 4;  // two fifths of what a window's own thread gets, where it wants all
 
 }  // namespace
 

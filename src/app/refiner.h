@@ -40,6 +40,7 @@ class Refiner {
       if (!valid()) return false;
       refiner_.result_ = std::move(result);
       refiner_.resultVersion_ = version_;
+      refiner_.problem_.clear();
       return true;
     }
 
@@ -99,8 +100,10 @@ class Refiner {
 
  private:
   void forget(bool keeps) {
-    if (!keeps) result_.reset();
-    problem_.clear();
+    if (!keeps) {
+      result_.reset();
+      problem_.clear();
+    }
     ++version_;
   }
 
@@ -116,11 +119,12 @@ class Refiner {
         if (!wanted_) continue;
         job = *wanted_;
       }
+      const Ticket ticket(*this, done, job.finishes);
       try {
-        work_(job, Ticket(*this, done, job.finishes));
+        work_(job, ticket);
       } catch (const std::exception& error) {
         const std::lock_guard lock(mutex_);
-        if (version_ == done) problem_ = error.what();
+        if (ticket.valid()) problem_ = error.what();
       }
     }
   }

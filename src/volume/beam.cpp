@@ -71,7 +71,9 @@ class Beamer {
   int shells_ = 1;
   float entered_ = 0;               ///< flux of the beam
   glm::vec3 sigma_{0}, albedo_{0};  ///< of the reduced medium, local units
-  // Of the slab that stands for the object here, local units.
+  // Of the slab that stands for the object here, local units. Past its far side, which may be nearer than the
+  // object's, a beam counts as on it: to stretch the slab over the beam's way is a little worse
+  // (docs/volume.md).
   float thickness_ = 0, depth_ = 0, descent_ = 0;
 };
 

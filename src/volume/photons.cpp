@@ -182,7 +182,7 @@ bool Tracer::advance(Photon& photon, const Medium& medium, float u) {
     }
     tally_.rays += 1;
     const RayHit hit = world_.rays->nearestInside(photon.object, photon.position, photon.direction, far);
-    if (hit && photon.order == 0)
+    if (hit && photon.order == 0 && mirrorings == 0)
       photon.thickness = std::fmin(photon.thickness, hit.distance * photon.descent);
     if (!hit && sigma > 0) return collide(photon, medium, -std::log1p(-u) / sigma, glm::vec3(1));
     if (!hit) break;

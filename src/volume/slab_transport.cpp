@@ -186,10 +186,13 @@ double thicknessOf(int i) {
 
 }  // namespace
 
-SlabTransport::SlabTransport(const Diffusion& medium, double eta) : table_(kThicknesses) {
+SlabTransport::SlabTransport(const Diffusion& medium, double eta) {
+  if (!(medium.albedo_p < 1)) return;
+  table_.resize(kThicknesses);
   Diffusion unit = medium;  // in mean free paths
   unit.zb *= medium.sigma_tp;
-  unit.k /= medium.sigma_tp;
+  // By the albedo: the medium's own has a floor, which nearly clear media meet.
+  unit.k = std::max(1e-3, std::sqrt(3 * (1 - medium.albedo_p) / (2 - medium.albedo_p)));
   const Slab deep(kThickest, medium.albedo_p, directionsOf(eta));
   for (int d = 0; d < kDepths; ++d) {
     const double z = depthOf(d), diffused = diffusionLeaving(unit, z, kThickest);

@@ -35,9 +35,15 @@ TEST(SlabTransport, MakesDiffusionSendBackWhatTransportDoes) {
 }
 
 TEST(SlabTransport, ChangesNothingWhereNothingIsAbsorbed) {
-  const SlabTransport none(Diffusion(2, 0, 1.3), 1.3), some(Diffusion(1.01, 0.48, 1.3), 1.3);
-  for (const float thickness : {0.01f, 1.0f, 50.0f})
-    EXPECT_NEAR(none.excess(thickness, 0.3f * thickness), 0, 1e-3);
+  const SlabTransport some(Diffusion(1.01, 0.48, 1.3), 1.3);
+  for (const double sigma_sp : {1e-6, 1e-5, 2.0}) {
+    const SlabTransport none(Diffusion(sigma_sp, 0, 1.3), 1.3);
+    for (const float thickness : {0.01f, 1.0f, 50.0f}) EXPECT_EQ(none.excess(thickness, 0.3f * thickness), 0);
+  }
+  // Nearly clear: no more than what is there to absorb.
+  const SlabTransport clear(Diffusion(1e-6, 1e-7, 1.3), 1.3);
+  for (const float thickness : {1e-6f, 1e-3f, 1.0f})
+    EXPECT_LT(std::abs(clear.excess(thickness, 0.3f * thickness)), 0.5);
   EXPECT_NEAR(some.excess(0.01f, 0.005f), 0, 0.002);  // too thin to absorb
   EXPECT_LT(some.excess(50, 0.1f), -0.05);
   EXPECT_LT(some.excess(50, 1e6f), -0.02);
