@@ -91,7 +91,8 @@ class Assembler {
 std::string placeOf(const ShaderSource& source, size_t line) {
   if (line == 0 || line > source.lines.size()) return source.files.front();
   const ShaderSource::Place& place = source.lines[line - 1];
-  return source.files[place.file] + (place.line > 0 ? ":" + std::to_string(place.line) : " (its defines)");
+  const std::string& file = source.files[place.file];
+  return place.line > 0 ? file + ":" + std::to_string(place.line) : file + " (its defines)";
 }
 
 /// A driver's message: the line of the text, from 1, and what is wrong there.
