@@ -16,10 +16,10 @@
 #include "lychnite/base/text.h"
 #include "lychnite/image/metrics.h"
 #include "lychnite/optics/fresnel.h"
-#include "lychnite/optics/materials.h"
 #include "lychnite/optics/profile.h"
 #include "lychnite/scene/scene_file.h"
 #include "reference/camera_receivers.h"
+#include "sampling_cells.h"
 #include "technique/frame.h"
 #include "technique/light_map/light_map_pass.h"
 #include "technique/multiple/lattice.h"
@@ -28,12 +28,9 @@
 namespace {
 
 using namespace lychnite;
+using namespace lychnite::sampling;
 
-constexpr double kSizes[] = {1, 3, 10, 30, 100, 300};
-constexpr int kPicture = 96, kMap = 512;
-const std::map<std::string, ParallelLight> kLights = {{"front", {.azimuth = -30, .elevation = 40}},
-                                                      {"side", {.azimuth = 80, .elevation = 10}},
-                                                      {"behind", {.azimuth = 150, .elevation = 25}}};
+constexpr int kMap = 512;
 
 /// The map's flux and flux-weighted depth with all its levels, trilinear.
 class Moments {
@@ -92,29 +89,20 @@ std::vector<Cell> fairLattice(double slope) {
 /// One scene's map, receivers and reference, to try lattices on.
 class Bench {
  public:
-  Bench(Renderer& renderer, ImageMaker& maker, const Scene& scene)
-      : frame_(makeFrame(scene, kPicture, kPicture)),
+  Bench(Renderer& renderer, const Scene& scene, const Image& reference)
+      : frame_(makeFrame(scene, reference.width(), reference.height())),
         rays_(scene),
-        receivers_(findReceivers(rays_, kPicture, kPicture)),
+        receivers_(findReceivers(rays_, reference.width(), reference.height())),
+        reference_(reference),
         table_(*makeProfile({}, {ProfileKind::kDipole, frame_.objects[0].medium, ProfileOrders::kFromSecond},
                             {}),
                1) {
-    RenderSettings settings;
-    settings.width = settings.height = kPicture;
+    RenderSettings settings = settingsOf(Method::kMatched);
     settings.mapSize = settings.mostMapSize = kMap;
-    settings.components = {.multiple = true, .single = false, .surface = false};
-    settings.method = Method::kHierarchical;
-    reference_ = maker.render(scene, settings);
-    settings.method = Method::kMatched;
     renderer.draw(scene, settings);
     const LightMapPass::Map& map = RendererTextures::maps(renderer).get(0, 0);
     view_ = map.view;
     moments_.emplace(map);
-  }
-
-  bool dark() const {
-    const auto& red = reference_.channel("R");
-    return std::all_of(red.begin(), red.end(), [](float v) { return v == 0; });
   }
 
   double error(const std::vector<Cell>& cells) const {
@@ -149,8 +137,8 @@ class Bench {
   Frame frame_;
   RayScene rays_;
   CameraReceivers receivers_;
+  Image reference_;
   ProfileTable table_;
-  Image reference_{1, 1};
   LightView view_;
   std::optional<Moments> moments_;
 };
@@ -168,19 +156,16 @@ void measure(Renderer& renderer, ImageMaker& maker, const Object& object, const 
              Errors& errors) {
   for (const auto& [name, light] : kLights)
     for (const double size : kSizes) {
-      Scene scene;
-      scene.objects = {object};
-      scene.objects[0].size = size;
-      const Coefficients& medium = findMaterial(material, "").coefficients;
-      scene.objects[0].material.medium = medium;
-      scene.lights = {light};
-      const Bench bench(renderer, maker, scene);
-      if (bench.dark()) continue;
+      const Scene scene = sceneOf(object, material, size, light);
+      const Image reference = maker.render(scene, settingsOf(Method::kHierarchical));
+      if (isBlack(reference)) continue;
+      const Bench bench(renderer, scene, reference);
+      const Coefficients& medium = scene.objects[0].material.medium;
       for (const double C1 : {1.2, 1.4, 1.6, 1.8})
         for (const double C2 : {0.1, 0.2, 0.3}) {
           const double error = bench.error(fairLattice(latticeSlope({C1, C2, 1}, medium, size)));
           auto& means = errors[{C1, C2}];
-          for (const std::string& key : {std::string(), name, fmt::format("{:g} mm", size)})
+          for (const std::string& key : {std::string(), std::string(name), fmt::format("{:g} mm", size)})
             means[key].add(error);
         }
       fmt::print(stderr, "\r{} {} {} mm      ", material, name, size);
@@ -220,7 +205,10 @@ int main(int argc, char** argv) {
       for (const std::string& material : materials) measure(renderer, maker, object, material, errors);
     }
     if (errors.empty())
-      throw Error({.where = "models", .expected = "at least one", .found = "none", .todo = ""});
+      throw Error({.where = "models",
+                   .expected = "at least one",
+                   .found = "none",
+                   .todo = "name built-in models or mesh files"});
     print(errors);
   } catch (const Error& error) {
     fmt::print(stderr, "fair_lattice: {}\n", error.what());

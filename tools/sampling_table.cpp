@@ -12,23 +12,15 @@
 #include "lychnite/base/error.h"
 #include "lychnite/base/text.h"
 #include "lychnite/image/metrics.h"
-#include "lychnite/optics/materials.h"
 #include "lychnite/scene/scene_file.h"
+#include "sampling_cells.h"
 
 namespace {
 
 using namespace lychnite;
+using namespace lychnite::sampling;
 
-constexpr double kSizes[] = {1, 3, 10, 30, 100, 300};
 constexpr size_t kSizeCount = std::size(kSizes);
-
-struct NamedLight {
-  const char* name;
-  ParallelLight light;
-};
-constexpr NamedLight kLights[] = {{"front", {.azimuth = -30, .elevation = 40}},
-                                  {"side", {.azimuth = 80, .elevation = 10}},
-                                  {"behind", {.azimuth = 150, .elevation = 25}}};
 
 struct Row {
   const char* name;
@@ -40,15 +32,6 @@ constexpr Row kRows[] = {{"adaptive", Method::kAdaptive, 32},
                          {"matched, 32", Method::kMatched, 32},
                          {"matched, 48", Method::kMatched, 48},
                          {"matched, 96", Method::kMatched, 96}};
-
-RenderSettings settingsOf(Method method, int samples) {
-  RenderSettings settings;
-  settings.width = settings.height = 96;
-  settings.method = method;
-  settings.multipleSamples = samples;
-  settings.components = {.multiple = true, .single = false, .surface = false};
-  return settings;
-}
 
 /// Relative errors of one row over the cells of one size.
 struct Cells {
@@ -76,20 +59,6 @@ struct Table {
       for (size_t s = 0; s < kSizeCount; ++s) cells[r][s].add(other.cells[r][s]);
   }
 };
-
-Scene sceneOf(const Object& object, const std::string& material, double size, const ParallelLight& light) {
-  Scene scene;
-  scene.objects = {object};
-  scene.objects[0].size = size;
-  scene.objects[0].material.medium = findMaterial(material, "").coefficients;
-  scene.lights = {light};
-  return scene;
-}
-
-bool isBlack(const Image& image) {
-  const auto& red = image.channel("R");
-  return std::all_of(red.begin(), red.end(), [](float v) { return v == 0; });
-}
 
 void print(const std::string& title, const Table& table) {
   fmt::print(
@@ -120,8 +89,7 @@ Table measure(ImageMaker& maker, Method judge, const Object& object,
   for (const std::string& material : materials)
     for (size_t s = 0; s < kSizeCount; ++s) {
       const Scene scene = sceneOf(object, material, kSizes[s], light.light);
-      const Image reference = maker.render(scene, settingsOf(judge, 32));
-      // A flat thing lit from behind and too thick: no picture, no relative error.
+      const Image reference = maker.render(scene, settingsOf(judge));
       if (isBlack(reference)) continue;
       for (size_t r = 0; r < std::size(kRows); ++r)
         table.cells[r][s].add(

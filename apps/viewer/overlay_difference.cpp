@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "controls.h"
+#include "lychnite/image/metrics.h"
 
 namespace lychnite::viewer {
 namespace {
@@ -16,11 +17,10 @@ constexpr double kBeside =
     160;  // by so much a picture must be wider than high to have room beside the object
 constexpr ImU32 kInk = IM_COL32(178, 180, 184, 255);
 
-/// As heat() of shaders/view/display.frag.
-constexpr int kColours[5][3] = {{0, 0, 4}, {81, 18, 124}, {183, 55, 121}, {252, 137, 97}, {252, 253, 191}};
-
-ImU32 colour(int i) {
-  return IM_COL32(kColours[i][0], kColours[i][1], kColours[i][2], 255);
+/// Of a quarter of the scale's length each: the knots between which it is linear.
+ImU32 colour(int quarter) {
+  const glm::vec3 c = errorColour(0.25 * quarter);
+  return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, 1});
 }
 
 /// 1, 2 or 5 times a power of ten, of which four to ten fill `full`.

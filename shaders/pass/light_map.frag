@@ -1,7 +1,7 @@
 // The translucent shadow map. TWO_CHANNELS (Yao & Wang 2009 sect. 4.1): depth and (w_i . n). FIVE_CHANNELS
 // (Dachsbacher & Stamminger 2003): normal and irradiance, and depth. MOMENTS (ours): the flux that enters and its first
-// three depth moments, so that every mip level holds exactly what its texels let in; and the two channels, in one go. An occluder takes part with its
-// depth only.
+// three depth moments, so that every mip level holds exactly what its texels let in; and the two channels, in one go. An
+// occluder takes part with its depth only.
 #include "lib/fresnel.glsl"
 #include "pass/light_view.glsl"
 

@@ -104,7 +104,7 @@ void Beamer::follow(const RayHit& from, const Surface::Sample& sample, const glm
       depth_ = 0;
       descent_ = -glm::dot(direction, from.normal);
       thickness_ = std::fmin(length * descent_, in.thickness);
-      enterLayer(beam, sample, -glm::dot(direction, from.normal), length);
+      enterLayer(beam, sample, descent_, length);
     }
     march(beam, length);
     if (!hit || !meet(beam, hit, onwards)) break;

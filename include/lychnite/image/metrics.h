@@ -40,10 +40,13 @@ struct CompareOptions {
 /// covered.
 Comparison compare(const Image& a, const Image& b, const CompareOptions& options = {});
 
-/// False-colour picture of |A - B| / mean of B per pixel (RGB average): black-purple-red-orange-cream with
-/// rising lightness at 0 to `full` (1 = 100 %), dark grey where B's alpha is 0. The display values are put
-/// back to linear, so that writePng with the plain sRGB curve shows them as they are. Throws Error as compare
-/// does.
+/// Display colour (sRGB, 0..1) of an error as a share of the largest shown: black-purple-red-orange-cream
+/// with rising lightness. Twin: heat() of shaders/view/display.frag.
+glm::vec3 errorColour(double share);
+
+/// False-colour picture of |A - B| / mean of B per pixel (RGB average): errorColour() at 0 to `full` (1 = 100
+/// %), dark grey where B's alpha is 0. The display values are put back to linear, so that writePng with the
+/// plain sRGB curve shows them as they are. Throws Error as compare does.
 Image errorMap(const Image& a, const Image& b, double full = 0.5);
 
 /// Per-pixel FLIP in [0, 1] of the main pictures as the sRGB curve shows them. Throws Error as compare does.
