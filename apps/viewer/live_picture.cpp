@@ -159,7 +159,9 @@ void LivePicture::takeVolume(const BackgroundVolume::Result& newest, const ViewS
   volumeScene_ = newest.scene;
   passes_ = newest.passes;
   volumeTexture_ = uploaded(*volumeImage_, "volume");
-  volumePace_.measured(newest.pictureSeconds, double(volumeImage_->width()) / wish.pixels.x);
+  // A new view counts where views change all the time: after the first one the light moves on at a lower cost.
+  if (std::exchange(newView_, newest.newView) || !newest.newView)
+    volumePace_.measured(newest.pictureSeconds, double(volumeImage_->width()) / wish.pixels.x);
   ViewState shown;
   shown.scene = newest.scene;
   shown.settings = state.settings;

@@ -79,6 +79,7 @@ class LivePicture {
   Scene volumeScene_;
   FollowPace volumePace_;
   int passes_ = 0;
+  bool newView_ = false;  ///< the newest picture of the volume was the first of its view
   Scene drawnScene_;
   RenderSettings drawnSettings_;
   std::string seenKey_;

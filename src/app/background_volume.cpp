@@ -1,5 +1,6 @@
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "app/refiner.h"
@@ -43,13 +44,17 @@ void BackgroundVolume::Impl::refine(const RefinerJob& job, const VolumeRefiner::
   solver.update(job.scene, {.cells = s.cells, .collisions = s.collisions, .seed = s.seed}, progress);
   while (ticket.valid()) {
     const auto begun = std::chrono::steady_clock::now();
-    auto image = std::make_shared<const Image>(solver.picture(s, progress));
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
     const int passes = solver.stats().passes;
+    const bool last = passes >= std::min(most, s.passes) || job.scene.lights.empty();
+    const bool hurry = job.finishes || (passes == 0 && !last), newView = !solver.keepsView(s);
+    auto image = std::make_shared<const Image>(solver.picture(
+        s, progress, hurry ? VolumeSolver::Detail::kPreview : VolumeSolver::Detail::kFull));
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
     if (!ticket.publish({.image = std::move(image),
                          .passes = passes,
                          .scene = job.scene,
-                         .pictureSeconds = took.count()}))
+                         .pictureSeconds = took.count(),
+                         .newView = newView}))
       return;
     if (job.finishes || passes >= most || job.scene.lights.empty()) return;
     solver.refine(progress);

@@ -191,7 +191,7 @@ class Bench {
                 [this, settings](const Scene& scene) {
                   volume_.update(scene, kLiveVolume);
                   const double start = wallMs();
-                  volume_.picture(settings);
+                  volume_.picture(settings, {}, VolumeSolver::Detail::kPreview);
                   pictureMs_ = wallMs() - start;
                 },
             .passes =

@@ -10,8 +10,11 @@
 namespace lychnite {
 
 void addLayer(Image& image, const std::string& name, const std::vector<glm::vec3>& values) {
-  for (const char* channel : {"R", "G", "B"}) image.addChannel(name.empty() ? channel : name + "." + channel);
-  for (size_t i = 0; i < values.size(); ++i) image.setRgb(i, values[i], name);
+  const char* const kChannels[] = {"R", "G", "B"};
+  for (int c = 0; c < 3; ++c) {
+    std::vector<float>& to = image.addChannel(name.empty() ? kChannels[c] : name + "." + kChannels[c]);
+    for (size_t i = 0; i < values.size(); ++i) to[i] = values[i][c];
+  }
 }
 
 Image assemblePicture(const RayScene& rays, const CameraReceivers& receivers, const RenderSettings& settings,

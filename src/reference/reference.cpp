@@ -71,7 +71,7 @@ Image renderDiffusion(const RayScene& rays, const CameraReceivers& receivers, co
   if (settings.components.multiple) parts.multiple = gathered(rays, receivers, sum.radiosity, true);
   if (wantsWhole && apart) whole = summed(ProfileOrders::kAll);
   if (settings.components.single)
-    parts.single = singlePart(rays, receivers, kSinglePasses, settings.seed, progress);
+    parts.single = SingleLight(rays, receivers).mean(kSinglePasses, settings.seed, progress);
   if (settings.components.surface) parts.surface = surfacePart(rays, receivers);
   Image image = assemblePicture(rays, receivers, settings, parts);
   if (settings.wants("radiosity"))

@@ -3,7 +3,7 @@
 #include "lychnite/base/progress.h"
 #include "lychnite/image/image.h"
 #include "lychnite/scene/settings.h"
-#include "volume/photons.h"
+#include "volume/view.h"
 
 namespace lychnite::volume {
 
@@ -14,7 +14,9 @@ struct NodeLight {
   std::vector<std::vector<Lanes>> error;          ///< standard error of `multiple`; empty where not known
 };
 
-Image volumePicture(const RayScene& rays, const World& world, const NodeLight& light,
-                    const RenderSettings& settings, const Progress& progress);
+/// As `view` sees it; `single` as SingleLight makes it, one entry a pixel, empty where it is not shown.
+Image volumePicture(const RayScene& rays, const World& world, const NodeLight& light, View& view,
+                    const std::vector<glm::vec3>& single, const RenderSettings& settings,
+                    const Progress& progress);
 
 }  // namespace lychnite::volume

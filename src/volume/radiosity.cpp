@@ -17,7 +17,7 @@ constexpr double kLeastWidth = 0.5, kWidest = 6, kWidthOfOne = 1.9;
 constexpr double kPhotonsOfOne = 8;  // per voxel's face, where it is kWidthOfOne
 constexpr double kBeamWidth = 1.1;   // of what has no noise: hides the cells
 constexpr double kAgainWidth = 2.5;
-constexpr double kBeams = 4;        // looks of the first order per voxel's face, about
+constexpr double kLooks = 4;        // for the first order, without photons, per voxel's face, about
 constexpr float kBlock = 4;         // voxels: errors are averaged over 3 x 3 x 3 blocks of this side
 constexpr double kChoiceWidth = 2;  // voxels, by which the choice of widths is blended
 constexpr double kVarianceWidth = 2;
@@ -128,32 +128,49 @@ Field choose(const Smoother& smoother, const Surface& surface, const Field& erro
   return std::move(blended[0][0]);
 }
 
-struct Base {
-  Field once, again;  ///< light that enters for the first time; light that left before
+/// Light that is told without noise by `measured` down to the width, below it by a half-space's response to
+/// what enters.
+struct Known {
+  const Field& measured;
+  const Smoother::Response& response;
+  double width;
 };
 
-/// What is known without noise: a half-space's response below the cells, the beams above them.
-Base baseOf(const Smoother& smoother, const NodeEstimate& estimate, const Smoother::Response& response,
-            double width) {
-  const auto coarse = twice(width);
-  const auto fine = [&](double q, int c) { return (1 - coarse(q, c)) * response(q, c); };
-  const auto out = smoother.filtered({{estimate.beam, {smoother.filter(coarse)}},
-                                      {estimate.entering, {smoother.filter(fine)}},
-                                      {estimate.again, {smoother.filter(gaussian(kAgainWidth))}}});
-  Base base{out[0][0], out[2][0]};
-  for (size_t i = 0; i < base.once.size(); ++i) base.once[i] += out[1][0][i];
-  return base;
+/// Each of them, and `more` by a filter of its own: all in one go. 1 or 2 of them.
+std::vector<Field> blended(const Smoother& smoother, const Field& entering, const std::vector<Known>& known,
+                           const Field& more, const Smoother::Filter& filter) {
+  std::vector<Smoother::Task> tasks{{entering, {}}, {more, {filter}}};
+  for (const Known& k : known) {
+    const auto coarse = twice(k.width);
+    tasks[0].filters.push_back(
+        smoother.filter([&](double q, int c) { return (1 - coarse(q, c)) * k.response(q, c); }));
+    tasks.push_back({k.measured, {smoother.filter(coarse)}});
+  }
+  auto out = smoother.filtered(tasks);
+  std::vector<Field> result;
+  for (size_t k = 0; k < known.size(); ++k) {
+    result.push_back(std::move(out[2 + k][0]));
+    for (size_t i = 0; i < entering.size(); ++i) result[k][i] += out[0][k][i];
+  }
+  result.push_back(std::move(out[1][0]));
+  return result;
 }
 
 }  // namespace
 
 NodeFlux cleaned(const Smoother& smoother, const Surface& surface, const NodeEstimate& estimate,
-                 const Smoother::Response& response) {
-  const Base base = baseOf(smoother, estimate, response, kBeamWidth);
-  NodeFlux result{base.once, {}};
-  for (size_t i = 0; i < base.again.size(); ++i) result.flux[i] += base.again[i];
+                 const Smoother::Response& response, const FirstOrder* first) {
+  std::vector<Known> known{{estimate.beam, response, kBeamWidth}};
+  if (first) known.push_back({first->flux, first->response, leastWidth(std::max(kLooks, estimate.photons))});
+  const auto base =
+      blended(smoother, estimate.entering, known, estimate.again, smoother.filter(gaussian(kAgainWidth)));
+  NodeFlux result{base[0], {}};
+  for (size_t i = 0; i < result.flux.size(); ++i) {
+    result.flux[i] += base.back()[i];
+    if (first) result.flux[i] -= base[1][i];
+  }
   if (estimate.half[0].empty()) return result;
-  const Residuals residuals = residualsOf(smoother, estimate, base.once);
+  const Residuals residuals = residualsOf(smoother, estimate, base[0]);
   const Field share =
       choose(smoother, surface, sumsAround(surface.grid(), surface, squareErrors(surface, residuals)));
   const auto& nodes = surface.nodes();
@@ -176,12 +193,9 @@ NodeFlux cleaned(const Smoother& smoother, const Surface& surface, const NodeEst
 }
 
 std::vector<Lanes> cleanedFirst(const Smoother& smoother, const NodeEstimate& estimate,
-                                const Smoother::Response& response) {
-  NodeEstimate known = estimate;
-  if (!known.half[0].empty())
-    for (size_t i = 0; i < known.beam.size(); ++i)
-      known.beam[i] = 0.5f * (known.half[0][i] + known.half[1][i]);
-  return baseOf(smoother, known, response, leastWidth(std::max(kBeams, estimate.photons))).once;
+                                const FirstOrder& first) {
+  const double width = leastWidth(std::max(kLooks, estimate.photons));
+  return blended(smoother, estimate.entering, {{first.flux, first.response, width}}, first.flux, {})[0];
 }
 
 }  // namespace lychnite::volume

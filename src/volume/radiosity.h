@@ -19,15 +19,21 @@ struct NodeFlux {
   std::vector<Lanes> variance;  ///< of the noise that is left in the flux; empty without photons
 };
 
+/// Light of the first order, flux per node, as noisy as it was found; `response` as of cleaned().
+struct FirstOrder {
+  std::vector<Lanes> flux;
+  Smoother::Response response;
+};
+
 /// What a half-space of the medium makes of the entering flux (`response` to light of wave number q, radians
 /// per voxel) and what first collisions make of it in the shape are known without noise; what the photons
 /// differ from them is smoothed, at each place as widely as it bears, which the two halves tell
-/// (docs/volume.md).
+/// (docs/volume.md). Without the first order where that is given.
 NodeFlux cleaned(const Smoother& smoother, const Surface& surface, const NodeEstimate& estimate,
-                 const Smoother::Response& response);
+                 const Smoother::Response& response, const FirstOrder* first);
 
-/// For light of the first order, of which `beam` is noisy too: smoothed by one width.
+/// The first order alone, smoothed by one width.
 std::vector<Lanes> cleanedFirst(const Smoother& smoother, const NodeEstimate& estimate,
-                                const Smoother::Response& response);
+                                const FirstOrder& first);
 
 }  // namespace lychnite::volume

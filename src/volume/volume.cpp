@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <glm/common.hpp>
@@ -10,11 +11,13 @@
 #include <map>
 
 #include "lychnite/base/error.h"
+#include "reference/single_light.h"
 #include "volume/gather.h"
 #include "volume/interruptible.h"
 #include "volume/light_field.h"
 #include "volume/picture.h"
 #include "volume/radiosity.h"
+#include "volume/view.h"
 
 namespace lychnite {
 
@@ -25,6 +28,7 @@ namespace {
 // Share of lines through a mesh along which inside may be undefined: pinholes, slivers of self-intersection.
 constexpr double kUndefined = 0.01;
 constexpr int kMostPasses = 10000;
+constexpr uint64_t kSinglePasses = 16;
 
 double since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -53,6 +57,11 @@ bool sameRays(const RayLight& a, const RayLight& b) {
   return a.parallel == b.parallel && a.direction == b.direction && a.position == b.position;
 }
 
+/// An empty `from` is 0.
+void addScaled(const std::vector<Lanes>& from, const Lanes& scale, std::vector<Lanes>& to) {
+  for (size_t n = 0; n < from.size(); ++n) to[n] += scale * from[n];
+}
+
 void requireRange(double value, double low, double high, const char* where) {
   if (!(value >= low && value <= high))
     throw Error({.where = where,
@@ -76,6 +85,14 @@ struct VolumeSolver::Impl {
   std::vector<LightField> fields;
   std::vector<std::unique_ptr<Gather>> gathers;
   std::vector<std::unique_ptr<LastFlight>> lastFlights;
+  std::unique_ptr<View> view;  ///< of the last picture
+  struct Single {              ///< of the last picture that shows it
+    std::vector<RayLight> lights;
+    std::vector<Coefficients> media;
+    uint64_t seed = 0;
+    bool full = false;
+    std::vector<glm::vec3> radiance;
+  } single;
   VolumeStats stats;
 
   double undefinedOf(const std::shared_ptr<const Mesh>& mesh);
@@ -85,9 +102,14 @@ struct VolumeSolver::Impl {
   int passes() const;  ///< that the picture is made of
   LightSolver lightSolver() { return {world, emission, lastFlights, *exchange, settings, stats}; }
   void tell();
-  NodeEstimate estimate(size_t object, bool firstOnly) const;
+  template <class Add>
+  void forLights(size_t object, Add add) const;
+  NodeEstimate estimate(size_t object) const;
+  FirstOrder firstOrder(size_t object, const std::vector<Lanes>& entering) const;
   NodeFlux flux(int object, Orders orders) const;
   void refine(bool last, const Progress& progress);
+  View& viewOf(int width, int height);
+  const std::vector<glm::vec3>& singleOf(uint64_t seed, Detail detail, const Progress& progress);
   void converge(VolumeSolver& solver, const RenderSettings& wish, const Progress& progress);
 };
 
@@ -112,6 +134,7 @@ bool VolumeSolver::Impl::makeBodies(const Scene& scene, const VolumeSettings& ne
   settings = next;
   if (regrid) shapes.clear();
   if (!kept) {
+    view.reset();
     rays = std::make_unique<RayScene>(scene);
     world.rays = rays.get();
     gathers.clear();
@@ -152,50 +175,64 @@ int VolumeSolver::Impl::passes() const {
   return least;
 }
 
-/// Of all lights together, all orders or the first only.
-NodeEstimate VolumeSolver::Impl::estimate(size_t object, bool firstOnly) const {
+/// Calls add(field, power) for every light, power over the square of the object's size.
+template <class Add>
+void VolumeSolver::Impl::forLights(size_t object, Add add) const {
+  const float size = world.bodies[object]->size;
+  for (size_t l = 0; l < fields.size(); ++l) {
+    const Rgb power = rays->lights()[l].power / double(size * size);
+    add(fields[l], Lanes{float(power.x), float(power.y), float(power.z), 0});
+  }
+}
+
+/// Of all lights together, all orders.
+NodeEstimate VolumeSolver::Impl::estimate(size_t object) const {
   const Body& body = *world.bodies[object];
   const std::vector<Lanes> none(body.shape->surface.nodes().size(), Lanes{0, 0, 0, 0});
   NodeEstimate result{none, none, none, {}, 1};
   if (passes() > 0) result.half[0] = result.half[1] = none;
-  for (size_t l = 0; l < fields.size(); ++l) {
-    const Rgb power = rays->lights()[l].power / double(body.size * body.size);
-    const Lanes p{float(power.x), float(power.y), float(power.z), 0};
-    const LightField& field = fields[l];
-    const auto add = [&](const std::vector<Lanes>& from, std::vector<Lanes>& to) {
-      for (size_t n = 0; n < from.size(); ++n) to[n] += p * from[n];
-    };
-    add((firstOnly ? field.beamFirst : field.beam)[object], result.beam);
-    if (!firstOnly) add(field.again[object], result.again);
+  forLights(object, [&](const LightField& field, const Lanes& p) {
+    addScaled(field.beam[object], p, result.beam);
+    addScaled(field.again[object], p, result.again);
     for (int half : {0, 1})
-      if (passes() > 0) add((firstOnly ? field.first : field.all)[half][object], result.half[half]);
+      if (passes() > 0) addScaled(field.all[half][object], p, result.half[half]);
     for (size_t n = 0; n < none.size(); ++n) result.entering[n] += p * field.entering[object].flux[n];
-  }
+  });
   const double h = body.shape->grid.side();
   result.photons = settings.photons * passes() * h * h / body.shape->surface.area();
   return result;
+}
+
+FirstOrder VolumeSolver::Impl::firstOrder(size_t object, const std::vector<Lanes>& entering) const {
+  const Body& body = *world.bodies[object];
+  FirstOrder first{std::vector<Lanes>(entering.size(), Lanes{0, 0, 0, 0}), {}};
+  forLights(object, [&](const LightField& field, const Lanes& p) {
+    if (passes() < 1) addScaled(field.beamFirst[object], p, first.flux);
+    for (int half : {0, 1})
+      if (passes() > 0) addScaled(field.first[half][object], 0.5f * p, first.flux);
+  });
+  Lanes sum{0, 0, 0, 0}, all{0, 0, 0, 0};
+  for (size_t n = 0; n < entering.size(); ++n) sum += first.flux[n], all += entering[n];
+  const Lanes share = sum / (all + Lanes{1e-30f, 1e-30f, 1e-30f, 1});
+  const double h = body.shape->grid.side();
+  first.response = [share, h, &body](double q, int c) {
+    return double(share[c]) * std::exp(-q / (h * body.system.medium().channel[c].sigma_tp));
+  };
+  return first;
 }
 
 NodeFlux VolumeSolver::Impl::flux(int object, Orders orders) const {
   const Body& body = *world.bodies[size_t(object)];
   const Smoother& smoother = body.shape->smoother;
   const double h = body.shape->grid.side();
-  NodeFlux first, all;
-  if (orders != Orders::kAll) {
-    const NodeEstimate known = estimate(size_t(object), true);
-    const std::vector<Lanes>& measured = known.half[0].empty() ? known.beam : known.half[0];
-    Lanes sum{0, 0, 0, 0}, entering{0, 0, 0, 0};
-    for (size_t n = 0; n < measured.size(); ++n) sum += measured[n], entering += known.entering[n];
-    const Lanes share = sum / (entering + Lanes{1e-30f, 1e-30f, 1e-30f, 1});
-    first.flux = cleanedFirst(smoother, known, [&](double q, int c) {
-      return double(share[c]) * std::exp(-q / (h * body.system.medium().channel[c].sigma_tp));
-    });
-    if (orders == Orders::kFirst) return first;
-  }
-  all = cleaned(smoother, body.shape->surface, estimate(size_t(object), false),
-                [&](double q, int c) { return body.system.medium().channel[c].response(q / h); });
-  for (size_t n = 0; n < first.flux.size(); ++n) all.flux[n] -= first.flux[n];
-  return all;
+  const NodeEstimate known = estimate(size_t(object));
+  const Smoother::Response response = [&](double q, int c) {
+    return body.system.medium().channel[c].response(q / h);
+  };
+  if (orders == Orders::kAll) return cleaned(smoother, body.shape->surface, known, response, nullptr);
+  const FirstOrder first = firstOrder(size_t(object), known.entering);
+  if (orders == Orders::kFirst) return {cleanedFirst(smoother, known, first), {}};
+  return cleaned(smoother, body.shape->surface, known, response, &first);
 }
 
 /// Sums up the statistics of all lights.
@@ -210,7 +247,7 @@ void VolumeSolver::Impl::tell() {
     stats.memoryBytes += fields.size() * sizeof(Lanes) *
                          (11 * body->shape->surface.nodes().size() + 6 * body->shape->grid.size());
   }
-  stats.memoryBytes += exchange->memoryBytes();
+  stats.memoryBytes += exchange->memoryBytes() + (view ? view->memoryBytes() : 0);
   Rgb entered(0), left(0), absorbed(0), unscattered(0), lost(0);
   stats.passes = passes();
   for (size_t l = 0; l < fields.size(); ++l) {
@@ -249,6 +286,7 @@ bool VolumeSolver::Impl::makeOrForgetBodies(const Scene& scene, const VolumeSett
   try {
     return makeBodies(scene, next);
   } catch (...) {
+    view.reset();
     rays.reset();
     throw;
   }
@@ -352,7 +390,31 @@ double VolumeSolver::noise() const {
   return sum > 0 ? std::sqrt(squares * area) / sum : 0;
 }
 
-Image VolumeSolver::picture(const RenderSettings& settings, const Progress& progress) const {
+/// Of the scene's camera.
+View& VolumeSolver::Impl::viewOf(int width, int height) {
+  if (view && view->isOf(*rays, world, width, height)) return *view;
+  view.reset();  // first, so that there is never memory for two
+  single = {};
+  view = std::make_unique<View>(*rays, world, width, height);
+  return *view;
+}
+
+/// As the view sees it.
+const std::vector<glm::vec3>& VolumeSolver::Impl::singleOf(uint64_t seed, Detail detail,
+                                                           const Progress& progress) {
+  const bool full = detail == Detail::kFull;
+  const auto same = [](const RayLight& a, const RayLight& b) { return sameRays(a, b) && a.power == b.power; };
+  if (!single.radiance.empty() && std::ranges::equal(single.lights, rays->lights(), same) &&
+      single.media == media && single.seed == seed && single.full == full)
+    return single.radiance;
+  single = {};
+  const SingleLight& light = view->singleLight();
+  std::vector<glm::vec3> radiance = full ? light.mean(kSinglePasses, seed, progress) : light.shared();
+  single = {rays->lights(), media, seed, full, std::move(radiance)};
+  return single.radiance;
+}
+
+Image VolumeSolver::picture(const RenderSettings& settings, const Progress& progress, Detail detail) const {
   NodeLight light;
   for (size_t i = 0; i < impl_->world.bodies.size(); ++i) {
     for (auto* part : {&light.all, &light.multiple, &light.error}) part->emplace_back();
@@ -366,7 +428,14 @@ Image VolumeSolver::picture(const RenderSettings& settings, const Progress& prog
     for (Lanes& e : light.error.back())
       for (int c = 0; c < 3; ++c) e[c] = std::sqrt(e[c]);
   }
-  return volumePicture(*impl_->rays, impl_->world, light, settings, progress);
+  View& view = impl_->viewOf(settings.width, settings.height);
+  const std::vector<glm::vec3> none;
+  const auto& single = settings.components.single ? impl_->singleOf(settings.seed, detail, progress) : none;
+  return volumePicture(*impl_->rays, impl_->world, light, view, single, settings, progress);
+}
+
+bool VolumeSolver::keepsView(const RenderSettings& settings) const {
+  return impl_->view && impl_->view->isOf(*impl_->rays, impl_->world, settings.width, settings.height);
 }
 
 /// Passes of photons as asked for: a number, or until the noise or the time is up.

@@ -66,6 +66,7 @@ class BackgroundVolume {
     std::string obstacle{};              ///< why the scene has no inside to solve in, see VolumeSolver
     Scene scene{};                       ///< that it was made of
     double pictureSeconds = 0;           ///< the picture alone, without what was solved for it
+    bool newView = false;                ///< which took most of that: the camera saw something else before
     bool behind = false;                 ///< another scene is wanted by now
   };
 

@@ -68,10 +68,22 @@ class VolumeSolver {
   /// told by two halves of the photons. 0 without photons.
   double noise() const;
 
+  /// How carefully a picture's single scattering is summed up.
+  enum class Detail {
+    kPreview,  ///< in a tenth of the time: 3 to 5 % off by pixel, shadows inside softened by some pixels
+    kFull
+  };
+
   /// The picture of the last update: settings' size, components, aovs, seed; conventions of
   /// renderReference(). `multiple` is order two and up; "radiosity" all orders; "stderr" that of `multiple`,
-  /// 0 without photons.
-  Image picture(const RenderSettings& settings, const Progress& progress = {}) const;
+  /// 0 without photons. What the camera sees is kept, up to some 512 MiB, and single scattering too: the next
+  /// picture of another light, medium or size by the same camera, or of more photons, is made in a fraction
+  /// of the time.
+  Image picture(const RenderSettings& settings, const Progress& progress = {},
+                Detail detail = Detail::kFull) const;
+
+  /// Whether picture() would find what the camera sees kept from the last one.
+  bool keepsView(const RenderSettings& settings) const;
 
   /// update(), refine() and picture(), on settings.threads; with the statistics as metadata "volume.*". As
   /// many passes as settings.passes, or where they are given until settings.noise or settings.timeLimit is

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "reference/single_light.h"
+#include "volume/gather.h"
+#include "volume/photons.h"
+
+namespace lychnite::volume {
+
+/// What a camera sees, and which nodes' light makes each pixel. It goes with shapes, places and indices of
+/// refraction only: lights, media and sizes may change under it. Nodes are numbered body after body.
+class View {
+ public:
+  View(const RayScene& rays, const World& world, int width, int height);
+
+  /// Whether it is what that camera sees of these bodies, whose shapes and places are those it was made for.
+  bool isOf(const RayScene& rays, const World& world, int width, int height) const;
+  const CameraReceivers& receivers() const { return receivers_; }
+  /// Of the scene's media as they are now.
+  const SingleLight& singleLight();
+
+  /// What one unit of a node's flux adds to a pixel's radiosity and radiance, means over the whole pixel.
+  struct Share {
+    uint32_t node;
+    float radiosity, radiance;
+  };
+  /// Calls visit(pixel, shares) for all pixels that see something, on several threads at once. Finds the
+  /// shares out when first asked and keeps them as far as they take little memory.
+  void forPixels(const std::function<void(uint32_t, std::span<const Share>)>& visit);
+
+  size_t memoryBytes() const;
+
+ private:
+  struct Block {
+    std::vector<uint32_t> last;  ///< of each pixel, the share after its last one
+    std::vector<Share> shares;
+  };
+  Block make(size_t block) const;
+
+  const RayScene& rays_;
+  const World& world_;
+  CameraFrame camera_;
+  std::vector<float> etas_;
+  CameraReceivers receivers_;
+  std::vector<uint32_t> firstNode_;  ///< of each body
+  std::vector<size_t> first_;        ///< receiver of each pixel that sees something, and the end
+  std::vector<Block> blocks_;        ///< empty ones are not kept
+  std::atomic<size_t> kept_{0};      ///< bytes
+  std::unique_ptr<SingleLight> singleLight_;
+};
+
+}  // namespace lychnite::volume

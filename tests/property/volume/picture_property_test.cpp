@@ -1,0 +1,130 @@
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include "lychnite/mesh/builtin.h"
+#include "lychnite/optics/materials.h"
+#include "lychnite/volume/volume.h"
+
+namespace lychnite {
+namespace {
+
+const VolumeSettings kQuick{.cells = 24, .photons = 1 << 15};
+
+Scene sceneOf(const char* material, double azimuth) {
+  Scene scene;
+  scene.objects.push_back({.mesh = builtinMesh("figurine"), .size = 10});
+  scene.objects[0].material.medium = findMaterial(material, "").coefficients;
+  scene.lights.push_back(ParallelLight{.azimuth = azimuth, .elevation = 20});
+  return scene;
+}
+
+RenderSettings settingsOf(int pixels) {
+  RenderSettings settings;
+  settings.width = settings.height = pixels;
+  settings.aovs = {"multiple", "single", "surface", "radiosity"};
+  return settings;
+}
+
+void expectSame(const Image& a, const Image& b) {
+  for (const char* layer : {"", "multiple", "single", "surface", "radiosity"})
+    for (size_t i = 0; i < a.pixelCount(); ++i)
+      ASSERT_EQ(a.rgb(i, layer), b.rgb(i, layer)) << layer << " " << i;
+}
+
+double meanOf(const Image& image, const char* layer) {
+  double sum = 0;
+  for (size_t i = 0; i < image.pixelCount(); ++i) sum += double(image.rgb(i, layer).g);
+  return sum / double(image.pixelCount());
+}
+
+TEST(VolumePicture, OfAViewThatIsKeptIsTheSame) {
+  VolumeSolver solver;
+  solver.update(sceneOf("skin1", 40), kQuick);
+  const Image first = solver.picture(settingsOf(48));
+  EXPECT_TRUE(solver.keepsView(settingsOf(48)));
+  EXPECT_FALSE(solver.keepsView(settingsOf(40)));
+  expectSame(solver.picture(settingsOf(48)), first);
+  solver.picture(settingsOf(40));
+  EXPECT_FALSE(solver.keepsView(settingsOf(48)));
+  expectSame(solver.picture(settingsOf(48)), first);
+}
+
+TEST(VolumePicture, ACameraThatMovesMakesANewOne) {
+  Scene scene = sceneOf("skin1", 40);
+  VolumeSolver solver, fresh;
+  solver.update(scene, kQuick);
+  solver.picture(settingsOf(48));
+  scene.camera = OrbitCamera{.azimuth = 70};
+  solver.update(scene, kQuick);
+  EXPECT_FALSE(solver.keepsView(settingsOf(48)));
+  fresh.update(scene, kQuick);
+  expectSame(solver.picture(settingsOf(48)), fresh.picture(settingsOf(48)));
+}
+
+TEST(VolumePicture, OfALightOfAnotherColourIsThatOfAFreshSolver) {
+  Scene scene = sceneOf("skin1", 40);
+  VolumeSolver solver, fresh;
+  solver.update(scene, kQuick);
+  solver.picture(settingsOf(48));
+  std::get<ParallelLight>(scene.lights[0]).irradiance = {1, 2, 3};
+  solver.update(scene, kQuick);
+  EXPECT_TRUE(solver.keepsView(settingsOf(48)));
+  fresh.update(scene, kQuick);
+  expectSame(solver.picture(settingsOf(48)), fresh.picture(settingsOf(48)));
+}
+
+TEST(VolumePicture, FollowsLightsMediaIndexAndSize) {
+  Scene scene = sceneOf("skin1", 40);
+  VolumeSolver solver;
+  const auto settings = settingsOf(48);
+  const auto check = [&](const char* what, bool keepsView) {
+    solver.update(scene, kQuick);
+    EXPECT_EQ(solver.keepsView(settings), keepsView) << what;
+    VolumeSolver fresh;
+    fresh.update(scene, kQuick);
+    const Image kept = solver.picture(settings), anew = fresh.picture(settings);
+    // The solver begins at what it has; single scattering and surface are found anew.
+    for (const char* layer : {"multiple", "radiosity"})
+      EXPECT_NEAR(meanOf(kept, layer) / meanOf(anew, layer), 1, 0.01) << what << ", " << layer;
+    for (const char* layer : {"single", "surface"})
+      EXPECT_NEAR(meanOf(kept, layer) / meanOf(anew, layer), 1, 1e-4) << what << ", " << layer;
+  };
+  check("first", false);
+  scene.lights[0] = ParallelLight{.azimuth = 90, .elevation = 10};
+  check("light", true);
+  scene.objects[0].material.medium.sigma_s = {1, 2, 3};
+  check("medium", true);
+  scene.objects[0].size = 25;
+  check("size", true);
+  scene.objects[0].material.medium.eta = 1.6;
+  check("index", false);
+  scene.objects.push_back({.mesh = builtinMesh("sphere"), .size = 8, .position = {14, 0, 0}});
+  scene.objects[1].material.medium = findMaterial("marble", "").coefficients;
+  check("another object", false);
+}
+
+TEST(VolumePicture, APreviewIsNearTheFullOne) {
+  for (const double azimuth : {-40.0, 150.0}) {
+    VolumeSolver solver;
+    solver.update(sceneOf("skin1", azimuth), kQuick);
+    const auto settings = settingsOf(160);
+    const Image quick = solver.picture(settings, {}, VolumeSolver::Detail::kPreview);
+    const Image full = solver.picture(settings);
+    double squares = 0, changed = 0;
+    for (size_t i = 0; i < full.pixelCount(); ++i) {
+      const double d = double(quick.rgb(i, "single").g - full.rgb(i, "single").g);
+      squares += d * d;
+      changed += d != 0;
+      ASSERT_EQ(quick.rgb(i, "multiple"), full.rgb(i, "multiple"));
+    }
+    const double mean = meanOf(full, "single"), pixels = double(full.pixelCount());
+    EXPECT_GT(changed, 0.1 * pixels);
+    EXPECT_NEAR(meanOf(quick, "single") / mean, 1, 0.03) << azimuth;
+    // Of the mean with the empty pixels; without the neighbours it would be about 1.
+    EXPECT_LT(std::sqrt(squares / pixels) / mean, 0.3) << azimuth;
+  }
+}
+
+}  // namespace
+}  // namespace lychnite
