@@ -2,30 +2,31 @@
 #include "pass/matched_sampler.glsl"
 #include "lists/matched_sites.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = 64) in;  // kGroup
 
-layout(std430) readonly buffer Sites {
-  uint siteCount;
-  uint sites[];
-};
 // Of a coarse level its values; of a picture four rows for each, one for each receiver of a pixel.
 layout(rgba32f) writeonly uniform image2D evaluated;
 uniform int firstRow;
 
 void main() {
   LightView view = lightView();
-  // A software driver gives each core groups in a row: their numbers' bits are turned round, so that the list's beginning is
-  // not one core's alone.
-  uint group = bitfieldReverse(gl_WorkGroupID.x) >> (32 - GROUP_BITS);
-  uint step = gl_WorkGroupSize.x << GROUP_BITS;
-  for (uint i = group * gl_WorkGroupSize.x + gl_LocalInvocationID.x; i < siteCount; i += step) {
-    Receiver receivers[4];
-    ivec2 site = siteOf(sites[i]);
-    int number = receiverOf(sites[i]);
-    // Another program listed it: a compiler may round the decision which samples share a receiver otherwise there.
-    int count = loadReceivers(firstSample(site), receivers);
-    Receiver r = receivers[clamp(number, 0, max(count, 1) - 1)];
-    ivec2 at = level > 0 ? site : ivec2(site.x, (site.y - firstRow) * 4 + number);
-    imageStore(evaluated, at, vec4(shownAs(r) * litRadiosity(view, r), 0.0));
+  // A software driver gives each core groups in a row: next to each other in the lists are those of different rows.
+  uint group = gl_WorkGroupID.x * uint(GROUP_ROWS) + gl_WorkGroupID.y;
+  int list = 0;
+  for (; list < kLists; ++list) {
+    uint filled = (counts[list] + kGroup - 1u) / kGroup;
+    if (group < filled) break;
+    group -= filled;
   }
+  uint place = group * kGroup + gl_LocalInvocationID.x;
+  if (list == kLists || place >= counts[list]) return;
+  uint code = sites[uint(list * listLength) + place];
+  Receiver receivers[4];
+  ivec2 site = siteOf(code);
+  int number = receiverOf(code);
+  // Another program listed it: a compiler may round the decision which samples share a receiver otherwise there.
+  int count = loadReceivers(firstSample(site), receivers);
+  Receiver r = receivers[clamp(number, 0, max(count, 1) - 1)];
+  ivec2 at = level > 0 ? site : ivec2(site.x, (site.y - firstRow) * 4 + number);
+  imageStore(evaluated, at, vec4(shownAs(r) * litRadiosity(view, r), 0.0));
 }

@@ -10,11 +10,6 @@ uniform int hasCoarser;
 uniform int firstRow;              // of the sites drawn here
 uniform vec3 faint;                // radiosity whose differences do not show
 
-layout(std430) buffer Sites {
-  uint siteCount;
-  uint sites[];
-};
-
 layout(location = 0) out vec4 value;    // the interpolated part
 layout(location = 1) out vec4 surface;  // depth along the camera's axis, octahedral normal, 1 + bits of the listed receivers
 
@@ -34,7 +29,8 @@ bool sameSurface(Receiver r, ivec2 at, vec3 s, out float far) {
 }
 
 // Value and distance of a coarser site; false where there is none or it lies on another piece of surface.
-bool neighbour(Receiver r, ivec2 at, out vec3 found, out float far) {
+bool neighbour(Receiver r, ivec2 at, out vec3 found, out float far, out bool evaluated) {
+  evaluated = true;
   found = vec3(0.0);
   far = 0.0;
   ivec2 last = textureSize(coarserValue, 0) - 1;
@@ -42,6 +38,7 @@ bool neighbour(Receiver r, ivec2 at, out vec3 found, out float far) {
   vec4 s = texelFetch(coarserSurface, at, 0);
   if (s.w == 0.0 || !sameSurface(r, at, s.xyz, far)) return false;
   found = texelFetch(coarserValue, at, 0).xyz;
+  evaluated = s.w > 1.0;
   return true;
 }
 
@@ -56,7 +53,8 @@ bool straight(Receiver r, ivec2 base, vec3 corners[4], vec3 allowed) {
       ivec2 step = axis == 0 ? ivec2(2 * corner.x - 1, 0) : ivec2(0, 2 * corner.y - 1);
       vec3 outer;
       float far;
-      if (!neighbour(r, base + corner + step, outer, far)) return false;
+      bool evaluated;
+      if (!neighbour(r, base + corner + step, outer, far, evaluated)) return false;
       here += abs(outer - 2.0 * corners[i] + corners[i ^ (axis + 1)]);
     }
     bend = max(bend, here);
@@ -74,11 +72,14 @@ bool interpolated(Receiver r, ivec2 site, out vec3 found) {
   vec3 least = vec3(1e30);
   vec3 most = vec3(0.0);
   float farthest = 0.0;
+  bool settled = true;  // all of them interpolated: what lies between them is as straight
   vec3 corners[4];
   for (int i = 0; i < 4; ++i) {
     ivec2 corner = ivec2(i & 1, i >> 1);
     float far;
-    if (!neighbour(r, base + corner, corners[i], far)) return false;
+    bool evaluated;
+    if (!neighbour(r, base + corner, corners[i], far, evaluated)) return false;
+    settled = settled && !evaluated;
     farthest = max(farthest, far);
     vec2 w = mix(1.0 - f, f, vec2(corner));
     found += w.x * w.y * corners[i];
@@ -86,10 +87,17 @@ bool interpolated(Receiver r, ivec2 site, out vec3 found) {
     most = max(most, corners[i]);
   }
   float allowed = interpolation * clamp(coreLength / farthest, 1.0, kMostTolerance);
-  bool good = all(lessThanEqual(most - least, allowed * max(most, faint)));
-  // A loop, since a software driver would run a branch's inside for all.
-  for (int i = good ? 1 : 0; i < 1; ++i) good = straight(r, base, corners, kBend * interpolation * max(most, faint));
-  return good;
+  bool good = settled || all(lessThanEqual(most - least, allowed * max(most, faint)));
+  return good || straight(r, base, corners, kBend * interpolation * max(most, faint));
+}
+
+// Adds a receiver to the list of its number of cells: of one pattern, or of it and the next finer.
+void enlist(Receiver r, ivec2 site, int number) {
+  float refinement = refinementOf(dot(r.normal, lightTravel(lightView(), r.position)));
+  int list = 2 * int(refinement) + (fract(refinement) > kFadeFrom ? 1 : 0);
+  uint place = atomicAdd(counts[list], 1u);
+  sites[uint(list * listLength) + place] = packReceiver(site, number);
+  if (place % kGroup == 0u && atomicAdd(groups, 1u) % uint(GROUP_ROWS) == 0u) atomicAdd(grid.x, 1u);
 }
 
 void main() {
@@ -99,15 +107,17 @@ void main() {
   if (count == 0 || (level > 0 && count > 1)) discard;
   vec3 sum = vec3(0.0);
   int listed = 0;
-  for (int i = 0; i < count; ++i) {
+  // Its condition last: a software driver runs the whole body before it sees that nobody is left in it.
+  int i = 0;
+  do {
     vec3 found;
     if (hasCoarser == 1 && interpolated(receivers[i], site, found)) {
       sum += shownAs(receivers[i]) * found;
     } else {
-      sites[atomicAdd(siteCount, 1u)] = packReceiver(site, i);
+      enlist(receivers[i], site, i);
       listed |= 1 << i;
     }
-  }
+  } while (++i < count);
   value = vec4(sum, 0.0);
   Receiver r = receivers[0];
   surface = vec4(dot(r.position - cameraPosition, cameraForward), octEncode(r.normal), 1.0 + float(listed));

@@ -5,6 +5,7 @@
 #include "lib/spiral.glsl"
 #include "pass/light_view.glsl"
 #include "pass/receiver.glsl"
+#include "pass/refinement.glsl"
 
 uniform sampler2D moments;    // flux, flux z, flux z^2, flux z^3; z towards the light from centreDepth
 uniform sampler2D profile;    // rows from below: Rd, P
@@ -14,7 +15,6 @@ uniform float boundRadius;    // of the object's bounding sphere, whose centre t
 uniform float spiralScale;    // half of the samples lie within this distance
 uniform float reach;          // beyond it the profile is dark in every channel
 uniform int sampleCount;      // cells of the pattern where the surface faces the light
-uniform float mostRefinement;  // doublings of their number, at most, where the surface slants
 
 const float kDark = 1e-7;  // a texel with less flux is empty
 const float kTexelRadius = 0.5641896;  // of the disc with a texel's area
@@ -83,9 +83,7 @@ Ground groundOf(LightView view, Receiver r) {
   float lit = cosI > 0.0 ? 1.0 - smoothstep(0.5 * slack, 2.0 * slack, abs(above)) : 0.0;
   g.z += lit * above;
   g.slope2 = lit * tan2;
-  // Seen from the light, what is near on a slanted surface is a strip cosI times as narrow as it is long: the round pattern
-  // needs 1 / cosI as many cells for it.
-  g.refinement = clamp(-log2(max(abs(cosI), 1e-3)), 0.0, mostRefinement);
+  g.refinement = refinementOf(cosI);
   g.depth = (1.0 - lit) * above;
   g.window = kTexelRadius * g.texel * mix(1.0, sqrt(1.0 + tan2), lit);
   g.local = lit * max(cosI, 0.0) * textureLod(moments, m.xy, 0.0).x;
@@ -107,8 +105,8 @@ struct Cell {
   float area;      // scene units, across the light
 };
 
-// From this one on the rings of a spiral take one fetch of the kernel.
-const int kFirstNarrow = 10;
+// From this one on, and at its end, the rings of a spiral take one fetch of the kernel.
+int firstNarrow(float cells) { return min(10, int(cells) - 1); }
 
 // Mean of the kernel over the ring between two squared distances: of a spiral's inner rings, which are wide, by P; of the
 // outer ones, where P's digits would cancel, at the distances' geometric mean. That is exact where the kernel falls as their
@@ -217,9 +215,7 @@ void addCell(inout Sum sum, Ground g, Cell c, bool narrow, bool outermost) {
   float root = sqrt(skew * skew + 4.0);
   float w = spread ? 0.5 * (skew + root) / root : 1.0;
   vec3 f = w * cellKernel(c, narrow, g.depth, height + 0.5 * deviation * (skew - root), g.window);
-  // A loop, since a software driver would run a branch's inside for all.
-  for (int i = spread ? 0 : 1; i < 1; ++i)
-    f += (1.0 - w) * cellKernel(c, narrow, g.depth, height + 0.5 * deviation * (skew + root), g.window);
+  if (spread) f += (1.0 - w) * cellKernel(c, narrow, g.depth, height + 0.5 * deviation * (skew + root), g.window);
   sum.radiosity += c.area * t.x * f;
   sum.weighted += c.area * c.area * t.x * f;
   sum.weight += c.area * c.area * t.x;
@@ -231,15 +227,16 @@ void addCell(inout Sum sum, Ground g, Cell c, bool narrow, bool outermost) {
 vec3 patternRadiosity(Ground g, Spiral s, float cells) {
   Sum sum = Sum(vec3(0.0), vec3(0.0), 0.0, 0.0, vec3(1e30));
   vec2 turn = turnOf(s, 0);
+  // Loops that end with their condition: a software driver runs the whole body before it sees that nobody is left in it.
   int i = 0;
-  for (; i < min(kFirstNarrow, int(cells)); ++i, turn = nextTurn(turn)) {
-    Cell c = cellOf(g, s, cells, i, turn);
-    addCell(sum, g, c, false, 4.0 * float(i) >= 3.0 * cells);
-  }
-  for (; float(i) < cells; ++i, turn = nextTurn(turn)) {
-    Cell c = cellOf(g, s, cells, i, turn);
-    addCell(sum, g, c, true, 4.0 * float(i) >= 3.0 * cells);
-  }
+  do {
+    addCell(sum, g, cellOf(g, s, cells, i, turn), false, 4.0 * float(i) >= 3.0 * cells);
+    turn = nextTurn(turn);
+  } while (++i < firstNarrow(cells));
+  do {
+    addCell(sum, g, cellOf(g, s, cells, i, turn), true, 4.0 * float(i) >= 3.0 * cells);
+    turn = nextTurn(turn);
+  } while (float(++i) < cells);
   // What the samples missed of the known total flux, spread like the samples (a control variate), tapered where they
   // missed so much that the estimate means nothing.
   float total = textureLod(moments, vec2(0.5), 30.0).x * g.width * g.width;
@@ -255,12 +252,12 @@ vec3 radiosity(LightView view, Receiver r) {
   Spiral s = spiralOf(g);
   // From one number of cells to twice as many by a cross-fade: a pattern that grew cell by cell would show as rings.
   float coarse = floor(g.refinement);
-  float finer = smoothstep(0.75, 1.0, g.refinement - coarse);
+  float finer = finerWeight(g.refinement);
   vec3 sum = vec3(0.0);
-  for (int i = 0; i < 2; ++i) {
-    float w = i == 0 ? 1.0 - finer : finer;
-    if (w > 0.0) sum += w * patternRadiosity(g, s, float(sampleCount) * exp2(coarse + float(i)));
-  }
+  int i = 0;
+  do {
+    sum += (i == 0 ? 1.0 - finer : finer) * patternRadiosity(g, s, float(sampleCount) * exp2(coarse + float(i)));
+  } while (++i < (finer > 0.0 ? 2 : 1));
   return sum + (profileP(0.0) - profileP(g.window)) * g.local;
 }
 

@@ -11,7 +11,7 @@ void main() {
   LightView view = lightView();
   Receiver r = receivers[0];
   int i = int(gl_FragCoord.x);
-  if (i == sampleCount << int(mostRefinement)) {
+  if (i == sampleCount << MOST_REFINEMENT) {
     place = vec4(r.position, float(count));
     share = vec4(litRadiosity(view, r), 0.0);
     return;
@@ -24,7 +24,7 @@ void main() {
   float level = levelOf(g, c);
   place = vec4(c.uv, level, sqrt(c.area) / g.width);
   Sum sum = Sum(vec3(0.0), vec3(0.0), 0.0, 0.0, vec3(1e30));
-  addCell(sum, g, c, i >= kFirstNarrow, false);
+  addCell(sum, g, c, i >= firstNarrow(cells), false);
   vec2 m = textureLod(moments, c.uv, level).xy;
   share = vec4(powerAt(view, r) * sum.radiosity, m.x > kDark ? centreDepth - m.y / m.x : 0.0);
 }

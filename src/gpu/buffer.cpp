@@ -34,12 +34,6 @@ void Buffer::resize(size_t size) {
   setBytes(size);
 }
 
-void Buffer::clear(size_t size) {
-  assert(size <= bytes() && size % 4 == 0);
-  glClearNamedBufferSubData(id(), GL_R32UI, 0, static_cast<GLsizeiptr>(size), GL_RED_INTEGER, GL_UNSIGNED_INT,
-                            nullptr);
-}
-
 void Buffer::update(size_t offset, std::span<const std::byte> content) {
   assert(offset + content.size() <= bytes());
   glNamedBufferSubData(id(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(content.size()),

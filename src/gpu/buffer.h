@@ -25,8 +25,6 @@ class Buffer : public Object {
   }
   /// Makes it `bytes` long, the content undefined, unless it is that long already.
   void resize(size_t bytes);
-  /// The first `bytes` (a multiple of 4) become 0.
-  void clear(size_t bytes);
   /// Replaces bytes from `offset` (bytes) on; they must lie inside the buffer.
   void update(size_t offset, std::span<const std::byte> bytes);
   /// Reads everything back (waits for the device).

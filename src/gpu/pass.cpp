@@ -87,12 +87,14 @@ void Pass::drawMesh(const Program& program, const VertexArray& mesh) {
   glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * mesh.triangles()), GL_UNSIGNED_INT, nullptr);
 }
 
-void dispatch(const std::string& label, const Program& program, int groups) {
+void dispatch(const std::string& label, const Program& program, const Buffer& groups) {
   assert(!currentState()->inPass);
   glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, label.c_str());
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
   ProgramAccess::bind(program);
-  glDispatchCompute(static_cast<GLuint>(groups), 1, 1);
+  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, ObjectAccess::id(groups));
+  glDispatchComputeIndirect(0);
+  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                   GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
   glPopDebugGroup();

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "gpu/buffer.h"
 #include "gpu/framebuffer.h"
 #include "gpu/program.h"
 #include "gpu/vertex_array.h"
@@ -50,8 +51,9 @@ class Pass {
   std::shared_ptr<ContextState> state_;
 };
 
-/// Runs `groups` work groups of a compute program, outside any pass. What shaders wrote to storage before is
-/// seen by them, and what they write to storage and images by all draws and dispatches after.
-void dispatch(const std::string& label, const Program& program, int groups);
+/// Runs a compute program, outside any pass, in as many work groups as the beginning of a buffer says:
+/// columns, rows and layers. What shaders wrote to storage before is seen here, and what this one writes to
+/// storage and images by all draws and dispatches after.
+void dispatch(const std::string& label, const Program& program, const Buffer& groups);
 
 }  // namespace lychnite::gpu

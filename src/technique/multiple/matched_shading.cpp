@@ -11,15 +11,26 @@ namespace {
 constexpr int kMostPixels = 1 << 19;
 /// Samples of a pixel nearer together than this many mean lengths of the profile's core share a receiver.
 constexpr double kShareWithin = 0.25;
-/// Groups of lists/matched_evaluate.comp, as a power of two: enough to keep a large device busy; every group
-/// costs, also one that finds nothing in the list.
-constexpr int kGroupBits = 9;
+/// Rows of groups of lists/matched_evaluate.comp: groups next to each other in the lists lie in different
+/// rows, and a software driver gives each core groups in rows.
+constexpr int kGroupRows = 16;
+/// One list for each number of cells and for each two that are cross-faded.
+constexpr int kLists = 2 * MultipleMatchedShading::kMostRefinement + 1;
+/// What lies before the lists in their buffer: columns, rows and layers of groups, the groups that the lists
+/// fill, and the lists' lengths.
+using ListsHeader = std::array<uint32_t, 4 + size_t(kLists)>;
+
+gpu::ShaderDefines listDefines() {
+  gpu::ShaderDefines defines = MultipleMatchedShading::defines();
+  defines.emplace_back("GROUP_ROWS", std::to_string(kGroupRows));
+  return defines;
+}
 
 gpu::Program computeProgram(const std::string& label, const std::string& file) {
   gpu::ProgramDesc desc;
   desc.label = label;
   desc.compute = file;
-  desc.defines = {{"GROUP_BITS", std::to_string(kGroupBits)}};
+  desc.defines = listDefines();
   return gpu::Program(desc);
 }
 
@@ -34,8 +45,12 @@ Rgb faintRadiosity(const ShadingInputs& in, size_t object, size_t light) {
 
 }  // namespace
 
+gpu::ShaderDefines MultipleMatchedShading::defines() {
+  return {{"MOST_REFINEMENT", std::to_string(kMostRefinement)}};
+}
+
 MultipleMatchedShading::MultipleMatchedShading()
-    : plan_(shadingProgram("matched, plan", "lists/matched_plan.frag")),
+    : plan_(shadingProgram("matched, plan", "lists/matched_plan.frag", listDefines())),
       evaluate_(computeProgram("matched, evaluate", "lists/matched_evaluate.comp")),
       gather_(shadingProgram("matched, gather", "lists/matched_gather.frag")) {}
 
@@ -54,10 +69,10 @@ void MultipleMatchedShading::resize(const CameraFrame& camera) {
     gpu::Texture value = texture("matched, values", width, height);
     gpu::Texture surface = texture("matched, surfaces", width, height);
     gpu::Framebuffer framebuffer({.label = "matched", .colours = {value, surface}, .depth = {}});
-    level.emplace(
-        Level{std::move(value), std::move(surface), std::move(framebuffer), gpu::Buffer("matched, list")});
-    const size_t most = size_t(width) * size_t(height) * (l > 0 ? 1 : 4);
-    level->sites.resize((most + 1) * sizeof(uint32_t));
+    level.emplace(Level{std::move(value), std::move(surface), std::move(framebuffer),
+                        gpu::Buffer("matched, lists"), 0});
+    level->listLength = width * height * (l > 0 ? 1 : 4);
+    level->sites.resize(sizeof(ListsHeader) + size_t(kLists) * size_t(level->listLength) * sizeof(uint32_t));
     if (l == 0) evaluated_.emplace(texture("matched, evaluated", width, 4 * height));
   }
 }
@@ -76,7 +91,6 @@ void MultipleMatchedShading::setUniforms(gpu::Program& program, const ShadingInp
   program.set("spiralScale", profile.spiralScale);
   program.set("reach", profile.reach);
   program.set("sampleCount", in.settings.multipleSamples);
-  program.set("mostRefinement", float(kMostRefinement));
   program.set("shareWithin", kShareWithin * profile.coreLength);
 }
 
@@ -84,6 +98,7 @@ void MultipleMatchedShading::setSiteUniforms(gpu::Program& program, const Target
   const ProfileCache::Entry& profile = target.in.profiles.get(target.object);
   setReceiverUniforms(program, target.in.frame, target.in.geometry.samples(), target.object);
   program.set("level", level);
+  program.set("listLength", levels_[size_t(level)]->listLength);
   program.set("anyLobe", level > 0);
   program.set("eta", target.in.frame.objects[target.object].medium.eta);
   program.set("piC", profile.piC);
@@ -93,8 +108,10 @@ void MultipleMatchedShading::plan(const Target& target, int level, const gpu::Re
   Level& here = *levels_[size_t(level)];
   here.framebuffer.clearColour(0, {0, 0, 0, 0});
   here.framebuffer.clearColour(1, {0, 0, 0, 0});
-  here.sites.clear(sizeof(uint32_t));
+  const ListsHeader empty{0, kGroupRows, 1};
+  here.sites.update(0, std::as_bytes(std::span(empty)));
   setSiteUniforms(plan_, target, level);
+  target.in.maps.get(target.object, target.light).view.setUniforms(plan_);
   const bool hasCoarser = level + 1 < kLevels && target.in.settings.interpolation > 0;
   plan_.set("hasCoarser", hasCoarser);
   if (hasCoarser) {
@@ -125,7 +142,7 @@ void MultipleMatchedShading::evaluate(const Target& target, int level, const gpu
   evaluate_.setStorage("Sites", here.sites);
   evaluate_.setImage("evaluated", level > 0 ? here.value : *evaluated_);
   evaluate_.set("firstRow", level > 0 ? 0 : sites.y);
-  gpu::dispatch("matched, evaluate", evaluate_, 1 << kGroupBits);
+  gpu::dispatch("matched, evaluate", evaluate_, here.sites);
 }
 
 void MultipleMatchedShading::shade(const Target& target, const Layer::Target& layer) {

@@ -15,6 +15,8 @@ class MultipleMatchedShading {
  public:
   /// How often the samples of a slanted surface are doubled, at most, against one that faces the light.
   static constexpr int kMostRefinement = 2;
+  /// Constants of pass/matched_sampler.glsl.
+  static gpu::ShaderDefines defines();
 
   MultipleMatchedShading();
   bool update(Layer& layer, const ShadingInputs& in, size_t light);
@@ -27,7 +29,8 @@ class MultipleMatchedShading {
   struct Level {
     gpu::Texture value, surface;
     gpu::Framebuffer framebuffer;
-    gpu::Buffer sites;
+    gpu::Buffer sites;   ///< the lists
+    int listLength = 0;  ///< of each, at most
   };
   /// What is drawn: an object in one light.
   struct Target {

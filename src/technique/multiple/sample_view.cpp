@@ -7,10 +7,10 @@ namespace {
 
 constexpr int kLatticeCells = 49;
 
-gpu::Program& made(std::optional<gpu::Program>& program, const char* fragment, const char* layout) {
+gpu::Program& made(std::optional<gpu::Program>& program, const char* fragment, gpu::ShaderDefines defines) {
   if (!program) {
     gpu::ProgramDesc desc{.label = "samples", .vertex = "pass/full_screen.vert", .fragment = fragment};
-    if (*layout) desc.defines = {{"LAYOUT", layout}};
+    desc.defines = std::move(defines);
     program.emplace(desc);
   }
   return *program;
@@ -73,7 +73,7 @@ std::optional<SeenSamples> SampleView::draw(gpu::Program& program, const Shading
 
 std::optional<SeenSamples> SampleView::at(const ShadingInputs& in, MultipleMatchedShading& sampler,
                                           const glm::ivec2& pixel, size_t light) {
-  gpu::Program& program = made(matched_, "pass/matched_samples.frag", "");
+  gpu::Program& program = made(matched_, "pass/matched_samples.frag", MultipleMatchedShading::defines());
   for (size_t i = 0; i < in.frame.objects.size(); ++i) {
     if (!in.frame.objects[i].translucent) continue;
     sampler.setUniforms(program, in, i, light);
@@ -86,7 +86,8 @@ std::optional<SeenSamples> SampleView::at(const ShadingInputs& in, MultipleMatch
 std::optional<SeenSamples> SampleView::at(const ShadingInputs& in, MultipleLatticeShading& sampler,
                                           const glm::ivec2& pixel, size_t light) {
   const bool fixed = in.settings.method == Method::kFixed;
-  gpu::Program& program = made(fixed ? fixed_ : adaptive_, "pass/lattice_samples.frag", fixed ? "5" : "2");
+  gpu::Program& program =
+      made(fixed ? fixed_ : adaptive_, "pass/lattice_samples.frag", {{"LAYOUT", fixed ? "5" : "2"}});
   for (size_t i = 0; i < in.frame.objects.size(); ++i) {
     if (!in.frame.objects[i].translucent) continue;
     sampler.setUniforms(program, in, i, light);

@@ -134,8 +134,7 @@ TEST_F(ProgramTest, WhatAPassListsAComputeProgramReadsAndWrites) {
   result.upload(Floats(24, -1.0f));
   Framebuffer framebuffer({.label = "d", .colours = {drawn}});
   Buffer list("list");
-  list.resize(8 * sizeof(uint32_t));
-  list.clear(8 * sizeof(uint32_t));
+  list.upload(std::vector<uint32_t>(8));
   Program append(fullScreen("pass/append.frag"));
   append.setStorage("List", list);
   Pass("append", framebuffer, {.scissor = Rect{1, 0, 4, 3}}).drawFullScreen(append);
@@ -147,7 +146,9 @@ TEST_F(ProgramTest, WhatAPassListsAComputeProgramReadsAndWrites) {
   Program scatter(computing("compute/scatter.comp", shaderRoot()));
   scatter.setStorage("List", list);
   scatter.setImage("target", result);
-  dispatch("scatter", scatter, 3);
+  Buffer groups("groups");
+  groups.upload(std::vector<uint32_t>{3, 1, 1});
+  dispatch("scatter", scatter, groups);
   const std::vector<float> texels = result.download();
   const std::vector<uint32_t> doubled = numbers(list);
   double sum = 0;
