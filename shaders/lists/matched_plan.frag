@@ -43,18 +43,17 @@ bool neighbour(Receiver r, ivec2 at, out vec3 found, out float far, out bool eva
 }
 
 // Whether a straight line through the corners is near enough: their second differences with their neighbours in the cell and
-// beyond, times what a parabola a quarter of the way between sites then lies off.
-bool straight(Receiver r, ivec2 base, vec3 corners[4], vec3 allowed) {
+// beyond, times what a parabola a quarter of the way between sites then lies off. Where the surface ends beyond, or another
+// begins, the values seldom are straight.
+bool straight(ivec2 base, vec3 corners[4], vec3 allowed) {
+  ivec2 last = textureSize(coarserValue, 0) - 1;
   vec3 bend = vec3(0.0);
   for (int i = 0; i < 4; ++i) {
     ivec2 corner = ivec2(i & 1, i >> 1);
     vec3 here = vec3(0.0);
     for (int axis = 0; axis < 2; ++axis) {
       ivec2 step = axis == 0 ? ivec2(2 * corner.x - 1, 0) : ivec2(0, 2 * corner.y - 1);
-      vec3 outer;
-      float far;
-      bool evaluated;
-      if (!neighbour(r, base + corner + step, outer, far, evaluated)) return false;
+      vec3 outer = texelFetch(coarserValue, clamp(base + corner + step, ivec2(0), last), 0).xyz;
       here += abs(outer - 2.0 * corners[i] + corners[i ^ (axis + 1)]);
     }
     bend = max(bend, here);
@@ -88,7 +87,7 @@ bool interpolated(Receiver r, ivec2 site, out vec3 found) {
   }
   float allowed = interpolation * clamp(coreLength / farthest, 1.0, kMostTolerance);
   bool good = settled || all(lessThanEqual(most - least, allowed * max(most, faint)));
-  return good || straight(r, base, corners, kBend * interpolation * max(most, faint));
+  return good || straight(base, corners, kBend * interpolation * max(most, faint));
 }
 
 // Adds a receiver to the list of its number of cells: of one pattern, or of it and the next finer.

@@ -11,9 +11,10 @@ void main() {
   if (count == 0) discard;
   LightView view = lightView();
   vec3 sum = vec3(0.0);
-  for (int i = 0; i < count; ++i) {
+  int i = 0;
+  do {
     float cosO = clamp(dot(receivers[i].normal, receivers[i].view), 0.0, 1.0);
     sum += receivers[i].weight * exitLobe(cosO, eta, piC) * radiosity(view, receivers[i].position);
-  }
+  } while (++i < count);
   radiance = vec4(sum, 0.0);
 }

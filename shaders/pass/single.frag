@@ -110,12 +110,13 @@ vec3 singleScattering(LightView view, Receiver r) {
   // Placed for the channel that reaches farthest, so that no channel's weight can exceed 1; the others are weighted by
   // their own attenuation over the density, which is exact for each.
   vec3 sum = vec3(0.0);
-  for (int k = 0; k < sampleCount; ++k) {
+  int k = 0;
+  do {
     float u = (float(k) + 0.5) / float(sampleCount);
     float s = freePath(u, slowest, end);
     vec3 weight = exp(-sigma_t * s) / freePathDensity(s, slowest, end);
     sum += weight * inScattered(view, r.position + travel * s, travel);
-  }
+  } while (++k < sampleCount);
   float leaving = (1.0 - fresnelReflectance(cosO, eta)) / (eta * eta);
   return sigma_s * sum * (leaving / float(sampleCount));
 }
@@ -126,6 +127,8 @@ void main() {
   if (count == 0) discard;
   LightView view = lightView();
   vec3 sum = vec3(0.0);
-  for (int i = 0; i < count; ++i) sum += receivers[i].weight * singleScattering(view, receivers[i]);
+  int i = 0;
+  do sum += receivers[i].weight * singleScattering(view, receivers[i]);
+  while (++i < count);
   radiance = vec4(sum, 0.0);
 }

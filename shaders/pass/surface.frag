@@ -42,13 +42,14 @@ void main() {
   if (count == 0) discard;
   LightView view = lightView();
   vec3 sum = vec3(0.0);
-  for (int i = 0; i < count; ++i) {
+  int i = 0;
+  do {
     Receiver r = receivers[i];
     vec3 wi = -lightTravel(view, r.position);
     vec3 response = surfaceResponse(base, eta, roughness, piC, r.normal, r.view, wi);
     if (response.x + response.y + response.z <= 0.0) continue;
     sum += r.weight * visibility(view, r, dot(r.normal, wi)) * response *
            facingIrradiance(view, lightPower, r.position);
-  }
+  } while (++i < count);
   radiance = vec4(sum, 0.0);
 }

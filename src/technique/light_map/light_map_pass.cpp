@@ -99,7 +99,6 @@ void LightMapPass::draw(Map& map, const Frame& frame, const MeshCache& meshes, s
     momentsProgram_.set("centreDepth", map.view.centreDepth);
     drawNearest(momentsProgram_, framebuffer, map, frame, meshes, object);
     map.moments->generateMipmaps();
-    map.cosine->generateMipmaps();
   } else if (map.cosine) {
     gpu::Framebuffer framebuffer({.label = "light map", .colours = {*map.cosine}, .depth = *depth_});
     framebuffer.clearColour(0, {background, 0, 0, 0});

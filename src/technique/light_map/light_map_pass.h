@@ -30,7 +30,7 @@ class LightMapPass {
 
   struct Map {
     LightView view;
-    std::optional<gpu::Texture> cosine;               ///< RG32F
+    std::optional<gpu::Texture> cosine;               ///< RG32F; beside moments its first level alone
     std::optional<gpu::Texture> normal, normalDepth;  ///< RGBA32F, R32F
     std::optional<gpu::Texture> moments;              ///< RGBA32F
     std::optional<gpu::Texture> farDepth;             ///< R32F, one level
