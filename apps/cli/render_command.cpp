@@ -156,7 +156,10 @@ RenderSettings settingsFromFlags(const Flags& flags) {
   }
   if (!flags.singleSamples.empty())
     settings.singleSamples = wholeNumber(flags.singleSamples, "--single-samples");
-  if (!flags.cells.empty()) settings.cells = wholeNumber(flags.cells, "--cells");
+  if (!flags.cells.empty() && flags.cells != "auto") {
+    settings.cells = wholeNumber(flags.cells, "--cells");
+    if (settings.cells == 0) usage("--cells", "8 to 192, or auto", "'0'");
+  }
   if (!flags.collisions.empty()) settings.collisions = wholeNumber(flags.collisions, "--collisions");
   if (!flags.interpolation.empty()) settings.interpolation = share(flags.interpolation, "--interpolation");
   if (!flags.tolerance.empty()) settings.tolerance = share(flags.tolerance, "--tolerance");
@@ -308,7 +311,10 @@ void addMethodFlags(CLI::App& command, Flags& flags) {
                      "matched: samples a pixel that faces the light, 8 to 128 (24); volume: passes of "
                      "photons (4); walk: photons per "
                      "pixel (16); adaptive, fixed: single-scattering samples (8)");
-  command.add_option("--cells", flags.cells, "volume: cells along an object's longest side, 8 to 192 (64)");
+  command.add_option(
+      "--cells", flags.cells,
+      "volume: cells along an object's longest side, 8 to 192 (auto: 64, or 96 where an object is "
+      "longer than 64 of its mean free paths)");
   command.add_option("--collisions", flags.collisions,
                      "volume: collisions traced before the diffusion equation takes over, 1 to 64 (6)");
   command.add_option("--single-samples", flags.singleSamples,

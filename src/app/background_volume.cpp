@@ -41,14 +41,15 @@ void BackgroundVolume::Impl::refine(const RefinerJob& job, const VolumeRefiner::
     return;
   }
   const Progress progress([&](const Progress::Update&) { return ticket.valid(); });
-  solver.update(job.scene, {.cells = s.cells, .collisions = s.collisions, .seed = s.seed}, progress);
+  const int cells = s.cells > 0 ? s.cells : VolumeSettings{}.cells;  // the same at rest and in motion
+  solver.update(job.scene, {.cells = cells, .collisions = s.collisions, .seed = s.seed}, progress);
   while (ticket.valid()) {
     const auto begun = std::chrono::steady_clock::now();
     const int passes = solver.stats().passes;
     const bool last = passes >= std::min(most, s.passes) || job.scene.lights.empty();
     const bool hurry = job.finishes || (passes == 0 && !last), newView = !solver.keepsView(s);
-    auto image = std::make_shared<const Image>(solver.picture(
-        s, progress, hurry ? VolumeSolver::Detail::kPreview : VolumeSolver::Detail::kFull));
+    auto image = std::make_shared<const Image>(
+        solver.picture(s, progress, hurry ? VolumeSolver::Detail::kPreview : VolumeSolver::Detail::kFull));
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
     if (!ticket.publish({.image = std::move(image),
                          .passes = passes,

@@ -102,7 +102,7 @@ void validate(const RenderSettings& settings) {
   requireRange(settings.tolerance, 1e-5, 1, "tolerance");
   requireRange(settings.timeLimit, 0, 1e9, "time");
   requireRange(settings.noise, 0, 10, "noise");
-  requireRange(settings.cells, 8, 192, "cells");
+  if (settings.cells != 0) requireRange(settings.cells, 8, 192, "cells");
   requireRange(settings.collisions, 1, 64, "collisions");
   requireRange(settings.passes, 1, 10000, "passes");
   requireRange(settings.threads, 0, 1024, "threads");

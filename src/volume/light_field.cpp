@@ -9,6 +9,8 @@ namespace {
 
 constexpr int kFewerReturn =
     4;  // one of so many rays is sent from surface to surface before there are photons
+constexpr int kMostReturns = 3;   // times that light is sent from surface to surface
+constexpr float kLittle = 0.04f;  // of the light that leaves: what is left to send then goes as a series
 constexpr int kExchangeCollisions = 2;  // of light that meets another surface, before the solver takes over
 
 // Photons tell what the beams are wrong by, which is little, and begin at the beams' solution.
@@ -17,6 +19,13 @@ constexpr double kCoarse = 0.1;  // of what their halves differ by, which tells 
 
 double since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+Lanes sumOf(const LightField::Fluxes& fluxes) {
+  Lanes sum{0, 0, 0, 0};
+  for (const auto& each : fluxes)
+    for (const Lanes& l : each) sum += l;
+  return sum;
 }
 
 }  // namespace
@@ -125,8 +134,7 @@ void LightSolver::solve(LightField& field) {
   exchangeLight(field);
 }
 
-/// Light that leaves and meets a surface again, once by tracing and a solve; what would go on the same way is
-/// taken as a geometric series. It is little light: made anew when the passes have doubled.
+/// Light that leaves and meets a surface again. It is little light: made anew when the passes have doubled.
 void LightSolver::exchangeLight(LightField& field) {
   field.again.resize(world_.bodies.size());
   if (exchange_.empty() || (field.passes > 0 && field.passes < 2 * field.exchangedAt)) return;
@@ -136,30 +144,52 @@ void LightSolver::exchangeLight(LightField& field) {
   stats_.exchangeMs += since(start);
 }
 
+/// Again and again by tracing and a solve while there is much left of it; what would go on the same way then
+/// is taken as a geometric series.
 LightField::Fluxes LightSolver::lightThatReturns(LightField& field) {
   LightField::Fluxes leaving = field.beam, result(leaving.size());
-  if (field.passes > 0)
-    for (size_t i = 0; i < leaving.size(); ++i)
+  for (size_t i = 0; i < leaving.size(); ++i) {
+    result[i].assign(leaving[i].size(), Lanes{0, 0, 0, 0});
+    if (field.passes > 0)
       for (size_t n = 0; n < leaving[i].size(); ++n)
         leaving[i][n] = 0.5f * (field.all[0][i][n] + field.all[1][i][n]);
+  }
+  const Lanes first = sumOf(leaving);
+  for (int round = 0; round < kMostReturns; ++round) {
+    const Lanes before = sumOf(leaving);
+    leaving = returnedOnce(field, leaving, round);
+    const Lanes after = sumOf(leaving);
+    float most = 0;
+    Lanes series{1, 1, 1, 1};
+    for (int c = 0; c < 3; ++c) {
+      most = std::max(most, first[c] > 0 ? after[c] / first[c] : 0);
+      if (before[c] > 0) series[c] = 1 / (1 - std::min(0.9f, after[c] / before[c]));
+    }
+    const bool last = most < kLittle || round + 1 == kMostReturns;
+    if (!last) series = Lanes{1, 1, 1, 1};
+    for (size_t i = 0; i < leaving.size(); ++i)
+      for (size_t n = 0; n < leaving[i].size(); ++n) result[i][n] += series * leaving[i][n];
+    if (last) break;
+  }
+  return result;
+}
+
+/// What leaves of light that left and met a surface.
+LightField::Fluxes LightSolver::returnedOnce(LightField& field, const LightField::Fluxes& leaving,
+                                             int round) {
   Tally tally;
   const int collisions = std::min(settings_.collisions, kExchangeCollisions);
   const int oneOf = field.passes == 0 ? kFewerReturn : 1;
   const std::vector<Deposits> back =
-      exchange_.send(world_, leaving, collisions, settings_.seed, oneOf, tally);
+      exchange_.send(world_, leaving, collisions, settings_.seed + uint64_t(round), oneOf, tally);
+  LightField::Fluxes result(leaving.size());
   for (size_t i = 0; i < back.size(); ++i) {
     if (!world_.bodies[i]) continue;
     const DiffusionSystem& system = world_.bodies[i]->system;
-    std::vector<Lanes> phi, &exits = result[i];
+    std::vector<Lanes> phi;
     stats_.iterations += system.solve(back[i].source, phi, std::max(0.03, settings_.tolerance)).iterations;
-    system.exits(phi, exits);
-    Lanes before{0, 0, 0, 0}, after{0, 0, 0, 0};
-    for (const Lanes& l : leaving[i]) before += l;
-    for (size_t n = 0; n < exits.size(); ++n) after += exits[n] += back[i].later[n];
-    Lanes series{1, 1, 1, 1};
-    for (int c = 0; c < 3; ++c)
-      if (before[c] > 0) series[c] = 1 / (1 - std::min(0.9f, after[c] / before[c]));
-    for (Lanes& exit : exits) exit *= series;
+    system.exits(phi, result[i]);
+    for (size_t n = 0; n < result[i].size(); ++n) result[i][n] += back[i].later[n];
   }
   return result;
 }

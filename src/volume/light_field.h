@@ -53,6 +53,7 @@ class LightSolver {
   void solveHalves(LightField& field, size_t body);
   void exchangeLight(LightField& field);
   LightField::Fluxes lightThatReturns(LightField& field);
+  LightField::Fluxes returnedOnce(LightField& field, const LightField::Fluxes& leaving, int round);
 
   const World& world_;
   const std::vector<Emission>& emission_;

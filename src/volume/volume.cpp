@@ -303,6 +303,17 @@ void orForget(LightField& field, Work work) {
   }
 }
 
+int volumeCells(const Scene& scene) {
+  constexpr int kUsual = 64, kMore = 96;
+  for (const Object& object : scene.objects) {
+    const Coefficients& m = object.material.medium;
+    const Rgb reduced = m.sigma_a + (1 - m.g) * m.sigma_s;
+    if (!object.material.opaque && object.size * (reduced.x + reduced.y + reduced.z) / 3 > kUsual)
+      return kMore;
+  }
+  return kUsual;
+}
+
 VolumeSolver::VolumeSolver() : impl_(std::make_unique<Impl>()) {}
 VolumeSolver::~VolumeSolver() = default;
 VolumeSolver::VolumeSolver(VolumeSolver&&) noexcept = default;
@@ -462,8 +473,8 @@ Image VolumeSolver::render(const Scene& scene, const RenderSettings& settings, c
   tbb::task_arena arena(settings.threads > 0 ? settings.threads : tbb::task_arena::automatic);
   return arena.execute([&] {
     const auto start = std::chrono::steady_clock::now();
-    update(scene, {.cells = settings.cells, .collisions = settings.collisions, .seed = settings.seed},
-           progress);
+    const int cells = settings.cells > 0 ? settings.cells : volumeCells(scene);
+    update(scene, {.cells = cells, .collisions = settings.collisions, .seed = settings.seed}, progress);
     impl_->converge(*this, settings, progress);
     Image image = picture(settings, progress);
     tellStats(impl_->stats, image);

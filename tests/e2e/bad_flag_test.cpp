@@ -57,6 +57,8 @@ std::vector<BadFlags> otherFlags() {
   return {badSize("SizeZero", "0mm"),
           badSize("SizeZeroWithoutUnit", "0"),
           badSize("SizeNegative", "-3mm"),
+          bad("CellsZero", {"--method", "volume", "--cells", "0"}, "--cells"),
+          bad("CellsTooFew", {"--method", "volume", "--cells", "7"}, "cells"),
           {"SizeWithoutUnit", {"render", "stone", "--size", "20", "-o", "out.png"}, "did you mean 20mm?"},
           badSize("SizeNan", "nanmm"),
           badSize("SizeInfinite", "infmm"),

@@ -57,7 +57,8 @@ class BackgroundWalk {
 
 /// The light inside by VolumeSolver, pass after pass for as long as its scene stays wanted. The solver is
 /// kept: a camera that moved costs a picture, a light that changed its colour as well. After
-/// RenderSettings::passes passes the picture is the one that ImageMaker renders.
+/// RenderSettings::passes passes the picture is the one that ImageMaker renders with as many cells; without
+/// RenderSettings::cells it is VolumeSettings' for scenes of any size, so that nothing is built anew in motion.
 class BackgroundVolume {
  public:
   struct Result {

@@ -50,7 +50,7 @@ struct RenderSettings {
   double tolerance = 0.005;  ///< dipole: relative error to refine to
   double timeLimit = 0;      ///< walk, volume: seconds, 0 = none
   double noise = 0;          ///< walk, volume: relative noise to stop at, 0 = none
-  int cells = 64;            ///< volume: along each object's longest side, 8..192
+  int cells = 0;             ///< volume: along each object's longest side, 8..192; 0 = volumeCells()
   int collisions = 6;        ///< volume: traced before the diffusion equation takes over, 1..64
   int passes = 4;            ///< volume: of photons, 1..10000
   uint64_t seed = 1;

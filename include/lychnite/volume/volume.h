@@ -22,6 +22,10 @@ struct VolumeSettings {
   bool operator==(const VolumeSettings&) const = default;
 };
 
+/// Cells for a still picture: 64, and 96 where a translucent object is longer than 64 of its reduced mean
+/// free paths (mean of RGB), so that a cell would be longer than one.
+int volumeCells(const Scene& scene);
+
 /// What the last update() did and cost.
 struct VolumeStats {
   double geometryMs = 0, sourceMs = 0, solveMs = 0, exchangeMs = 0;  ///< 0 for what was kept

@@ -302,6 +302,18 @@ TEST(VolumeProperty, TheInsideOfAFoldIsDark) {
   EXPECT_LT(elsewhere, 1e-3 * front);
 }
 
+TEST(VolumeProperty, MoreCellsWhereOneIsLongerThanAMeanFreePath) {
+  Scene scene = sceneOf("sphere", "marble", 10);
+  EXPECT_EQ(volumeCells(scene), 64);
+  scene.objects[0].size = 100;
+  EXPECT_EQ(volumeCells(scene), 96);
+  scene.objects[0].material.medium.g = 0.99;  // hardly scatters
+  EXPECT_EQ(volumeCells(scene), 64);
+  scene.objects[0].material.medium.g = 0;
+  scene.objects[0].material.opaque = true;
+  EXPECT_EQ(volumeCells(scene), 64);
+}
+
 TEST(VolumeProperty, OpenMeshesAreAnObstacle) {
   VolumeSolver solver;
   EXPECT_EQ(solver.obstacle(sceneOf("figurine", "marble", 10)), "");
