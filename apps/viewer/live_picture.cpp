@@ -159,8 +159,8 @@ void LivePicture::takeVolume(const BackgroundVolume::Result& newest, const ViewS
   volumeScene_ = newest.scene;
   passes_ = newest.passes;
   volumeTexture_ = uploaded(*volumeImage_, "volume");
-  // A new view counts where views change all the time: after the first one the light moves on at a lower cost.
-  if (std::exchange(newView_, newest.newView) || !newest.newView)
+  // What motion costs: where views change all the time a new one each, else one that is kept.
+  if (newest.preview && (std::exchange(newView_, newest.newView) || !newest.newView))
     volumePace_.measured(newest.pictureSeconds, double(volumeImage_->width()) / wish.pixels.x);
   ViewState shown;
   shown.scene = newest.scene;

@@ -7,7 +7,6 @@
 #include "controls.h"
 #include "lychnite/base/units.h"
 #include "lychnite/optics/materials.h"
-#include "lychnite/volume/volume.h"
 
 namespace lychnite::viewer {
 namespace {
@@ -208,9 +207,8 @@ void drawMethodSection(PanelContext& context) {
   if (settings.method == Method::kMatched)
     ui.slider("Samples", "Of multiple scattering at each pixel.", settings.multipleSamples, 8, 128);
   if (settings.method == Method::kVolume) {
-    int cells = settings.cells > 0 ? settings.cells : VolumeSettings{}.cells;
-    if (ui.slider("Cells", "Of the diffusion equation, along the object's longest side.", cells, 16, 128))
-      settings.cells = cells;
+    ui.slider("Cells", "Of the diffusion equation, along the object's longest side.", settings.cells, 16,
+              128);
     ui.slider("Collisions", "Of each photon, traced before the diffusion equation takes over.",
               settings.collisions, 1, 24);
   }

@@ -93,7 +93,7 @@ bool interpolated(Receiver r, ivec2 site, out vec3 found) {
 // Adds a receiver to the list of its number of cells: of one pattern, or of it and the next finer.
 void enlist(Receiver r, ivec2 site, int number) {
   float refinement = refinementOf(dot(r.normal, lightTravel(lightView(), r.position)));
-  int list = 2 * int(refinement) + (fract(refinement) > kFadeFrom ? 1 : 0);
+  int list = clamp(2 * int(refinement) + (fract(refinement) > kFadeFrom ? 1 : 0), 0, kLists - 1);  // NaN
   uint place = atomicAdd(counts[list], 1u);
   sites[uint(list * listLength) + place] = packReceiver(site, number);
   if (place % kGroup == 0u && atomicAdd(groups, 1u) % uint(GROUP_ROWS) == 0u) atomicAdd(grid.x, 1u);

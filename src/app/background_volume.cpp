@@ -41,7 +41,7 @@ void BackgroundVolume::Impl::refine(const RefinerJob& job, const VolumeRefiner::
     return;
   }
   const Progress progress([&](const Progress::Update&) { return ticket.valid(); });
-  const int cells = s.cells > 0 ? s.cells : VolumeSettings{}.cells;  // the same at rest and in motion
+  const int cells = s.cells > 0 ? s.cells : volumeCells(job.scene);
   solver.update(job.scene, {.cells = cells, .collisions = s.collisions, .seed = s.seed}, progress);
   while (ticket.valid()) {
     const auto begun = std::chrono::steady_clock::now();
@@ -55,6 +55,7 @@ void BackgroundVolume::Impl::refine(const RefinerJob& job, const VolumeRefiner::
                          .passes = passes,
                          .scene = job.scene,
                          .pictureSeconds = took.count(),
+                         .preview = hurry,
                          .newView = newView}))
       return;
     if (job.finishes || passes >= most || job.scene.lights.empty()) return;

@@ -39,6 +39,12 @@ glm::vec3 exp3(const glm::vec3& v) {
   return {std::exp(v.x), std::exp(v.y), std::exp(v.z)};
 }
 
+/// Shares of each channel's free flights that have ended after a distance.
+glm::vec3 ended(const glm::vec3& sigma_t, float distance) {
+  return {-std::expm1(-sigma_t.x * distance), -std::expm1(-sigma_t.y * distance),
+          -std::expm1(-sigma_t.z * distance)};
+}
+
 struct Depth {
   float value, density;  ///< along a ray, per length
 };
@@ -47,7 +53,7 @@ struct Depth {
 class Flights {
  public:
   Flights(const glm::vec3& sigma_t, float length)
-      : sigma_t_(sigma_t), length_(length), within_(1.0f - exp3(-sigma_t * length)) {}
+      : sigma_t_(sigma_t), length_(length), within_(ended(sigma_t, length)) {}
 
   /// Where the share u of them ends. One draw for all: every channel is unbiased, and even u spread evenly
   /// over each of them.
@@ -62,11 +68,11 @@ class Flights {
     }
     float value = low;  // the share is concave in the depth: Newton's steps come from below
     for (int step = 0;; ++step) {
-      const glm::vec3 left = exp3(-sigma_t_ * value);
+      const glm::vec3 now = ended(sigma_t_, value);
       float share = 0, density = 0;
       for (int c = 0; c < 3; ++c) {
-        share += (clear(c) ? value / length_ : (1 - left[c]) / within_[c]) / 3;
-        density += (clear(c) ? 1 / length_ : sigma_t_[c] * left[c] / within_[c]) / 3;
+        share += (clear(c) ? value / length_ : now[c] / within_[c]) / 3;
+        density += (clear(c) ? 1 / length_ : sigma_t_[c] * (1 - now[c]) / within_[c]) / 3;
       }
       if (step == kMostSteps || std::fabs(u - share) < kClose) return {value, density};
       (share < u ? low : high) = value;
@@ -76,7 +82,7 @@ class Flights {
   }
 
  private:
-  bool clear(int c) const { return sigma_t_[c] * length_ < 1e-4f; }
+  bool clear(int c) const { return sigma_t_[c] * length_ < 1e-6f; }
 
   glm::vec3 sigma_t_;
   float length_;
@@ -189,7 +195,8 @@ bool ofOneSurface(const Receiver& a, const Receiver& b) {
 
 }  // namespace
 
-std::vector<glm::vec3> SingleLight::shared() const {
+std::vector<glm::vec3> SingleLight::shared(const Progress& progress) const {
+  progress.check({"single scattering", 0, ""});
   constexpr uint32_t kNone = ~0u;
   const auto& all = receivers_.receivers;
   const auto width = uint32_t(receivers_.width), height = uint32_t(receivers_.height);
@@ -216,7 +223,7 @@ std::vector<glm::vec3> SingleLight::shared() const {
         const uint32_t at = column + uint32_t(x), line = row + uint32_t(y);
         if (at >= width || line >= height) continue;
         const uint32_t other = alone[line * width + at];
-        if (other == kNone || !ofOneSurface(all[i], all[other])) continue;
+        if (other == kNone || !(eyeRays_[other].length > 0) || !ofOneSurface(all[i], all[other])) continue;
         // Of the tile's two borders each counts half, so that every place along the ray counts alike.
         const float weight = (std::abs(x) == kTile / 2 ? 0.5f : 1) * (std::abs(y) == kTile / 2 ? 0.5f : 1);
         mean += weight * inside[other];

@@ -34,7 +34,7 @@ class SingleLight {
   /// All lights by one sample a pixel, which neighbours of one surface share (Keller & Heidrich 2001,
   /// interleaved sampling), and two a receiver where a surface ends: as little noise as a dozen passes, but
   /// shadows inside are softened by some pixels. One entry a pixel.
-  std::vector<glm::vec3> shared() const;
+  std::vector<glm::vec3> shared(const Progress& progress) const;
 
   size_t memoryBytes() const { return eyeRays_.capacity() * sizeof(EyeRay); }
 

@@ -55,7 +55,8 @@ Exchange::Exchange(const World& world) {
 }
 
 std::vector<Deposits> Exchange::send(const World& world, const std::vector<std::vector<Lanes>>& leaving,
-                                     int collisions, uint64_t seed, int oneOf, Tally& tally) const {
+                                     int collisions, uint64_t seed, int round, int oneOf,
+                                     Tally& tally) const {
   // Leaving light has the angular shape S_w (docs/physics.md); over the rays' density that is Ft / C.
   std::vector<double> C(world.bodies.size(), 1), eta(C);
   for (size_t i = 0; i < C.size(); ++i)
@@ -75,7 +76,7 @@ std::vector<Deposits> Exchange::send(const World& world, const std::vector<std::
                                (C[pair.object] * kRays));
       const glm::vec3 flux = glm::vec3(all[0], all[1], all[2]) * share;
       if (!(flux.x + flux.y + flux.z > 0)) continue;
-      Rng rng(seed, kStream + i);
+      Rng rng(seed, kStream * uint64_t(1 + round) + i);
       const glm::vec3 u(rng.uniform(), rng.uniform(), rng.uniform());
       tracer.arrive(pair.hit, pair.direction, flux, rng.uniform(), u, rng, 2, collisions);
     }

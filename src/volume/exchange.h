@@ -21,9 +21,9 @@ class Exchange {
   size_t memoryBytes() const { return pairs_.capacity() * sizeof(Pair); }
 
   /// Sends the flux that leaves at nodes (per body) back in where it meets a surface, as scattered light, by
-  /// one of `oneOf` rays. Returns what it deposits.
+  /// one of `oneOf` rays. Each `round` has random numbers of its own. Returns what it deposits.
   std::vector<Deposits> send(const World& world, const std::vector<std::vector<Lanes>>& leaving,
-                             int collisions, uint64_t seed, int oneOf, Tally& tally) const;
+                             int collisions, uint64_t seed, int round, int oneOf, Tally& tally) const;
 
  private:
   std::vector<Pair> pairs_;

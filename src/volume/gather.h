@@ -29,10 +29,4 @@ class Gather {
   std::vector<Weight> weights_;
 };
 
-inline glm::vec3 mean(const std::vector<Gather::Weight>& weights, const std::vector<Lanes>& flux) {
-  Lanes sum{0, 0, 0, 0};
-  for (const Gather::Weight& w : weights) sum += w.weight * flux[w.node];
-  return {sum[0], sum[1], sum[2]};
-}
-
 }  // namespace lychnite::volume

@@ -181,7 +181,7 @@ LightField::Fluxes LightSolver::returnedOnce(LightField& field, const LightField
   const int collisions = std::min(settings_.collisions, kExchangeCollisions);
   const int oneOf = field.passes == 0 ? kFewerReturn : 1;
   const std::vector<Deposits> back =
-      exchange_.send(world_, leaving, collisions, settings_.seed + uint64_t(round), oneOf, tally);
+      exchange_.send(world_, leaving, collisions, settings_.seed, round, oneOf, tally);
   LightField::Fluxes result(leaving.size());
   for (size_t i = 0; i < back.size(); ++i) {
     if (!world_.bodies[i]) continue;

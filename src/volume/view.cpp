@@ -165,11 +165,12 @@ void View::forPixels(const std::function<void(uint32_t, std::span<const Share>)>
             std::span(block.shares).subspan(begin, block.last[i] - begin));
       begin = block.last[i];
     }
-    const size_t bytes = made.shares.size() * sizeof(Share);
+    const size_t bytes = made.shares.size() * sizeof(Share) + made.last.size() * sizeof(uint32_t);
     if (made.last.empty() || kept_ + bytes > kMostBytes) return;
     kept_ += bytes;
     blocks_[b] = std::move(made);
   });
+  complete_ = true;
 }
 
 const SingleLight& View::singleLight() {

@@ -29,6 +29,8 @@ class View {
     uint32_t node;
     float radiosity, radiance;
   };
+  /// Whether all pixels' shares were found out, and kept where that takes little memory.
+  bool complete() const { return complete_; }
   /// Calls visit(pixel, shares) for all pixels that see something, on several threads at once. Finds the
   /// shares out when first asked and keeps them as far as they take little memory.
   void forPixels(const std::function<void(uint32_t, std::span<const Share>)>& visit);
@@ -52,6 +54,7 @@ class View {
   std::vector<Block> blocks_;        ///< empty ones are not kept
   std::atomic<size_t> kept_{0};      ///< bytes
   std::unique_ptr<SingleLight> singleLight_;
+  bool complete_ = false;
 };
 
 }  // namespace lychnite::volume

@@ -416,16 +416,17 @@ const std::vector<glm::vec3>& VolumeSolver::Impl::singleOf(uint64_t seed, Detail
   const bool full = detail == Detail::kFull;
   const auto same = [](const RayLight& a, const RayLight& b) { return sameRays(a, b) && a.power == b.power; };
   if (!single.radiance.empty() && std::ranges::equal(single.lights, rays->lights(), same) &&
-      single.media == media && single.seed == seed && single.full == full)
+      single.media == media && single.seed == seed && single.full >= full)
     return single.radiance;
   single = {};
   const SingleLight& light = view->singleLight();
-  std::vector<glm::vec3> radiance = full ? light.mean(kSinglePasses, seed, progress) : light.shared();
+  std::vector<glm::vec3> radiance = full ? light.mean(kSinglePasses, seed, progress) : light.shared(progress);
   single = {rays->lights(), media, seed, full, std::move(radiance)};
   return single.radiance;
 }
 
 Image VolumeSolver::picture(const RenderSettings& settings, const Progress& progress, Detail detail) const {
+  const Interruptible inside(progress, {"volume: picture", 0, ""});
   NodeLight light;
   for (size_t i = 0; i < impl_->world.bodies.size(); ++i) {
     for (auto* part : {&light.all, &light.multiple, &light.error}) part->emplace_back();
@@ -446,7 +447,8 @@ Image VolumeSolver::picture(const RenderSettings& settings, const Progress& prog
 }
 
 bool VolumeSolver::keepsView(const RenderSettings& settings) const {
-  return impl_->view && impl_->view->isOf(*impl_->rays, impl_->world, settings.width, settings.height);
+  return impl_->view && impl_->view->complete() &&
+         impl_->view->isOf(*impl_->rays, impl_->world, settings.width, settings.height);
 }
 
 /// Passes of photons as asked for: a number, or until the noise or the time is up.

@@ -57,8 +57,7 @@ class BackgroundWalk {
 
 /// The light inside by VolumeSolver, pass after pass for as long as its scene stays wanted. The solver is
 /// kept: a camera that moved costs a picture, a light that changed its colour as well. After
-/// RenderSettings::passes passes the picture is the one that ImageMaker renders with as many cells; without
-/// RenderSettings::cells it is VolumeSettings' for scenes of any size, so that nothing is built anew in motion.
+/// RenderSettings::passes passes the picture is the one that ImageMaker renders.
 class BackgroundVolume {
  public:
   struct Result {
@@ -67,6 +66,7 @@ class BackgroundVolume {
     std::string obstacle{};              ///< why the scene has no inside to solve in, see VolumeSolver
     Scene scene{};                       ///< that it was made of
     double pictureSeconds = 0;           ///< the picture alone, without what was solved for it
+    bool preview = false;                ///< as of a scene that moves, see VolumeSolver::Detail
     bool newView = false;                ///< which took most of that: the camera saw something else before
     bool behind = false;                 ///< another scene is wanted by now
   };

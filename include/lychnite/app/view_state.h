@@ -45,7 +45,9 @@ struct Inspect {
 /// Everything that a person changes in the viewer and can undo. Plain data.
 struct ViewState {
   Scene scene;
-  RenderSettings settings;  ///< width and height are the window's affair
+  /// Width and height are the window's affair. Cells of any size alike, so that `volume` keeps them in
+  /// motion.
+  RenderSettings settings{.cells = 64};
   ToneMapping toneMapping;
   Variant variant;
   CompareView compare;

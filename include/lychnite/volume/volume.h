@@ -74,15 +74,16 @@ class VolumeSolver {
 
   /// How carefully a picture's single scattering is summed up.
   enum class Detail {
-    kPreview,  ///< in a tenth of the time: 3 to 5 % off by pixel, shadows inside softened by some pixels
+    kPreview,  ///< in a tenth of the time: 3 to 5 % off by pixel, 6 to 8 % at edges, shadows inside softened
+               ///< by some pixels; as kFull where that is kept
     kFull
   };
 
   /// The picture of the last update: settings' size, components, aovs, seed; conventions of
   /// renderReference(). `multiple` is order two and up; "radiosity" all orders; "stderr" that of `multiple`,
-  /// 0 without photons. What the camera sees is kept, up to some 512 MiB, and single scattering too: the next
-  /// picture of another light, medium or size by the same camera, or of more photons, is made in a fraction
-  /// of the time.
+  /// 0 without photons. What the camera sees is kept, up to 512 MiB of it besides some 150 bytes a pixel, and
+  /// single scattering too: the next picture of another light, medium or size by the same camera, or of more
+  /// photons, is made in a fraction of the time.
   Image picture(const RenderSettings& settings, const Progress& progress = {},
                 Detail detail = Detail::kFull) const;
 

@@ -71,7 +71,7 @@ void MultipleMatchedShading::resize(const CameraFrame& camera) {
     gpu::Framebuffer framebuffer({.label = "matched", .colours = {value, surface}, .depth = {}});
     level.emplace(Level{std::move(value), std::move(surface), std::move(framebuffer),
                         gpu::Buffer("matched, lists"), 0});
-    level->listLength = width * height * (l > 0 ? 1 : 4);
+    level->listLength = l > 0 ? width * std::clamp(4 * kMostPixels / width, 1, height) : 4 * width * height;
     level->sites.resize(sizeof(ListsHeader) + size_t(kLists) * size_t(level->listLength) * sizeof(uint32_t));
     if (l == 0) evaluated_.emplace(texture("matched, evaluated", width, 4 * height));
   }
@@ -104,10 +104,12 @@ void MultipleMatchedShading::setSiteUniforms(gpu::Program& program, const Target
   program.set("piC", profile.piC);
 }
 
+void MultipleMatchedShading::clear(int level) {
+  for (int target : {0, 1}) levels_[size_t(level)]->framebuffer.clearColour(target, {0, 0, 0, 0});
+}
+
 void MultipleMatchedShading::plan(const Target& target, int level, const gpu::Rect& sites) {
   Level& here = *levels_[size_t(level)];
-  here.framebuffer.clearColour(0, {0, 0, 0, 0});
-  here.framebuffer.clearColour(1, {0, 0, 0, 0});
   const ListsHeader empty{0, kGroupRows, 1};
   here.sites.update(0, std::as_bytes(std::span(empty)));
   setSiteUniforms(plan_, target, level);
@@ -148,11 +150,16 @@ void MultipleMatchedShading::evaluate(const Target& target, int level, const gpu
 void MultipleMatchedShading::shade(const Target& target, const Layer::Target& layer) {
   const gpu::Rect& all = layer.bounds;
   resize(target.in.frame.camera);
-  for (int l = kLevels - 1; l > 0 && target.in.settings.interpolation > 0; --l)
-    evaluate(target, l, {all.x >> l, all.y >> l, (all.width >> l) + 2, (all.height >> l) + 2});
+  for (int l = kLevels - 1; l > 0 && target.in.settings.interpolation > 0; --l) {
+    clear(l);
+    const int most = levels_[size_t(l)]->listLength / levels_[size_t(l)]->value.width();
+    for (int y = all.y >> l, end = y + (all.height >> l) + 2; y < end; y += most)
+      evaluate(target, l, {all.x >> l, y, (all.width >> l) + 2, std::min(most, end - y)});
+  }
   const int most = levels_[0]->value.height();
   for (int y = all.y; y < all.y + all.height; y += most) {
     const gpu::Rect band{all.x, y, all.width, std::min(most, all.y + all.height - y)};
+    clear(0);
     evaluate(target, 0, band);
     gather_.setTexture("value", levels_[0]->value);
     gather_.setTexture("surface", levels_[0]->surface);

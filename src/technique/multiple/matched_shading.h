@@ -38,6 +38,7 @@ class MultipleMatchedShading {
     size_t object, light;
   };
   void resize(const CameraFrame& camera);
+  void clear(int level);
   void plan(const Target& target, int level, const gpu::Rect& sites);
   void evaluate(const Target& target, int level, const gpu::Rect& sites);
   void setSiteUniforms(gpu::Program& program, const Target& target, int level);

@@ -108,6 +108,24 @@ TEST(Walk, SlabMeshMatchesTheSlab) {
   }
 }
 
+TEST(Walk, FirstOrderOfANearlyClearMediumGoesWithItsScattering) {
+  Scene scene = sceneOf(translucent(boxMesh(glm::vec3(20, 20, 20)), 40, {}));
+  scene.lights = {ParallelLight{.azimuth = 30, .elevation = 20}};
+  RenderSettings settings = walkSettings(16, 16);
+  settings.components = {.multiple = false, .single = true, .surface = false};
+  // From 1e-5 to a hundredth of a free path through the box; what is lost on the way is at most the product.
+  const auto over = [&](double sigma) {
+    scene.objects[0].material.medium = {
+        .sigma_s = Rgb(sigma, 2 * sigma, 4 * sigma), .sigma_a = Rgb(0), .eta = 1.4};
+    return middle(renderReference(scene, settings), "") / (sigma * Rgb(1, 2, 4));
+  };
+  const Rgb least = over(2.5e-7);
+  EXPECT_GT(least.x, 0);
+  for (const double sigma : {2.5e-6, 2.5e-5, 6e-5})
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(over(sigma)[c] / least[c], 1, 0.002 + 240 * sigma) << sigma << " " << c;
+}
+
 TEST(Walk, FirstOrderIsExactOnAFlatSurface) {
   const Coefficients medium{.sigma_s = Rgb(1, 2, 4), .sigma_a = Rgb(0.5, 0.1, 1), .g = 0.5, .eta = 1.4};
   Scene scene = sceneOf(translucent(boxMesh(glm::vec3(20, 20, 20)), 40, medium));
