@@ -96,7 +96,7 @@ void makeSpeed(Studio& studio, Report& report) {
       "map {} x {}, "
       "all components, median of {} frames in which light, size and material change each time; `volume` runs "
       "on the CPU "
-      "(48 cells, 32768 photons), tracing, solving and drawing included. Load of the machine {:.1f} before, "
+      "(48 cells, no photons), solving and drawing included. Load of the machine {:.1f} before, "
       "{:.1f} after.",
       bench.device, bench.cores, side, side, studio.quick() ? 256 : 512, studio.quick() ? 256 : 512,
       bench.frames, bench.load[0], bench.load[1]);
