@@ -136,23 +136,22 @@ struct Known {
   double width;
 };
 
-/// Each of them, and `more` by a filter of its own: all in one go. 1 or 2 of them.
+/// Each of them, then what `tasks`, of one filter each, make: all in one go. 1 to 3 of both together.
 std::vector<Field> blended(const Smoother& smoother, const Field& entering, const std::vector<Known>& known,
-                           const Field& more, const Smoother::Filter& filter) {
-  std::vector<Smoother::Task> tasks{{entering, {}}, {more, {filter}}};
-  for (const Known& k : known) {
-    const auto coarse = twice(k.width);
-    tasks[0].filters.push_back(
-        smoother.filter([&](double q, int c) { return (1 - coarse(q, c)) * k.response(q, c); }));
-    tasks.push_back({k.measured, {smoother.filter(coarse)}});
+                           std::vector<Smoother::Task> tasks) {
+  std::vector<Smoother::Filter> below;
+  for (size_t k = 0; k < known.size(); ++k) {
+    const auto coarse = twice(known[k].width);
+    below.push_back(
+        smoother.filter([&](double q, int c) { return (1 - coarse(q, c)) * known[k].response(q, c); }));
+    tasks.insert(tasks.begin() + long(k), {known[k].measured, {smoother.filter(coarse)}});
   }
+  tasks.push_back({entering, std::move(below)});
   auto out = smoother.filtered(tasks);
   std::vector<Field> result;
-  for (size_t k = 0; k < known.size(); ++k) {
-    result.push_back(std::move(out[2 + k][0]));
-    for (size_t i = 0; i < entering.size(); ++i) result[k][i] += out[0][k][i];
-  }
-  result.push_back(std::move(out[1][0]));
+  for (size_t t = 0; t + 1 < tasks.size(); ++t) result.push_back(std::move(out[t][0]));
+  for (size_t k = 0; k < known.size(); ++k)
+    for (size_t i = 0; i < entering.size(); ++i) result[k][i] += out.back()[k][i];
   return result;
 }
 
@@ -162,8 +161,8 @@ NodeFlux cleaned(const Smoother& smoother, const Surface& surface, const NodeEst
                  const Smoother::Response& response, const FirstOrder* first) {
   std::vector<Known> known{{estimate.beam, response, kBeamWidth}};
   if (first) known.push_back({first->flux, first->response, leastWidth(std::max(kLooks, estimate.photons))});
-  const auto base =
-      blended(smoother, estimate.entering, known, estimate.again, smoother.filter(gaussian(kAgainWidth)));
+  const auto base = blended(smoother, estimate.entering, known,
+                            {{estimate.again, {smoother.filter(gaussian(kAgainWidth))}}});
   NodeFlux result{base[0], {}};
   for (size_t i = 0; i < result.flux.size(); ++i) {
     result.flux[i] += base.back()[i];
@@ -195,7 +194,7 @@ NodeFlux cleaned(const Smoother& smoother, const Surface& surface, const NodeEst
 std::vector<Lanes> cleanedFirst(const Smoother& smoother, const NodeEstimate& estimate,
                                 const FirstOrder& first) {
   const double width = leastWidth(std::max(kLooks, estimate.photons));
-  return blended(smoother, estimate.entering, {{first.flux, first.response, width}}, first.flux, {})[0];
+  return blended(smoother, estimate.entering, {{first.flux, first.response, width}}, {})[0];
 }
 
 }  // namespace lychnite::volume

@@ -479,6 +479,7 @@ Image VolumeSolver::render(const Scene& scene, const RenderSettings& settings, c
     update(scene, {.cells = cells, .collisions = settings.collisions, .seed = settings.seed}, progress);
     impl_->converge(*this, settings, progress);
     Image image = picture(settings, progress);
+    impl_->tell();  // with the memory of what the camera sees
     tellStats(impl_->stats, image);
     if (impl_->stats.passes > 0) image.metadata["noise"] = fmt::format("{:.6g}", noise());
     image.metadata["seconds"] = fmt::format("{:.3f}", since(start) / 1000);

@@ -18,7 +18,7 @@ struct LightMapNeeds {
   int size = 512;
   bool cosine = true;         ///< depth and (w_i . n), with mips [Yao & Wang 2009]
   bool fiveChannels = false;  ///< normal, irradiance and depth, with mips [DS03]
-  bool moments = false;      ///< flux and its depth moments, with mips (ours)
+  bool moments = false;       ///< flux and its depth moments, with mips (ours)
   bool farDepth = false;      ///< of translucent objects only
 };
 

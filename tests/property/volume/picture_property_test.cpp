@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 
+#include "lychnite/base/error.h"
 #include "lychnite/mesh/builtin.h"
 #include "lychnite/optics/materials.h"
 #include "lychnite/volume/volume.h"
@@ -50,28 +52,41 @@ TEST(VolumePicture, OfAViewThatIsKeptIsTheSame) {
   expectSame(solver.picture(settingsOf(48)), first);
 }
 
-TEST(VolumePicture, ACameraThatMovesMakesANewOne) {
+TEST(VolumePicture, OfAnotherCameraOrColourIsThatOfAFreshSolver) {
   Scene scene = sceneOf("skin1", 40);
-  VolumeSolver solver, fresh;
+  VolumeSolver solver;
   solver.update(scene, kQuick);
   solver.picture(settingsOf(48));
+  const auto check = [&](bool keepsView) {
+    solver.update(scene, kQuick);
+    EXPECT_EQ(solver.keepsView(settingsOf(48)), keepsView);
+    VolumeSolver fresh;
+    fresh.update(scene, kQuick);
+    expectSame(solver.picture(settingsOf(48)), fresh.picture(settingsOf(48)));
+  };
   scene.camera = OrbitCamera{.azimuth = 70};
-  solver.update(scene, kQuick);
-  EXPECT_FALSE(solver.keepsView(settingsOf(48)));
-  fresh.update(scene, kQuick);
-  expectSame(solver.picture(settingsOf(48)), fresh.picture(settingsOf(48)));
+  check(false);
+  std::get<ParallelLight>(scene.lights[0]).irradiance = {1, 2, 3};
+  check(true);
 }
 
-TEST(VolumePicture, OfALightOfAnotherColourIsThatOfAFreshSolver) {
-  Scene scene = sceneOf("skin1", 40);
+TEST(VolumePicture, ThatWasInterruptedIsMadeWholeByTheNext) {
   VolumeSolver solver, fresh;
-  solver.update(scene, kQuick);
-  solver.picture(settingsOf(48));
-  std::get<ParallelLight>(scene.lights[0]).irradiance = {1, 2, 3};
-  solver.update(scene, kQuick);
-  EXPECT_TRUE(solver.keepsView(settingsOf(48)));
-  fresh.update(scene, kQuick);
-  expectSame(solver.picture(settingsOf(48)), fresh.picture(settingsOf(48)));
+  solver.update(sceneOf("skin1", 40), kQuick);
+  fresh.update(sceneOf("skin1", 40), kQuick);
+  const Image whole = fresh.picture(settingsOf(96));
+  int interrupted = 0;
+  for (int most = 0; most < 8; ++most) {
+    int asked = 0;
+    const Progress impatient([&](const Progress::Update&) { return asked++ < most; });
+    try {
+      solver.picture(settingsOf(96), impatient);
+    } catch (const Interrupted&) {
+      ++interrupted;
+    }
+  }
+  EXPECT_GT(interrupted, 4);
+  expectSame(solver.picture(settingsOf(96)), whole);
 }
 
 TEST(VolumePicture, FollowsLightsMediaIndexAndSize) {
@@ -95,10 +110,16 @@ TEST(VolumePicture, FollowsLightsMediaIndexAndSize) {
   check("light", true);
   scene.objects[0].material.medium.sigma_s = {1, 2, 3};
   check("medium", true);
+  scene.objects[0].material.medium.g = 0.7;
+  check("phase function", true);
+  scene.objects[0].material.roughness = 0.4;
+  check("roughness", true);
   scene.objects[0].size = 25;
   check("size", true);
   scene.objects[0].material.medium.eta = 1.6;
   check("index", false);
+  scene.objects[0].rotation = glm::angleAxis(0.5, glm::dvec3(0, 1, 0));
+  check("turn", false);
   scene.objects.push_back({.mesh = builtinMesh("sphere"), .size = 8, .position = {14, 0, 0}});
   scene.objects[1].material.medium = findMaterial("marble", "").coefficients;
   check("another object", false);
