@@ -21,12 +21,13 @@ void main() {
   uint place = group * kGroup + gl_LocalInvocationID.x;
   if (list == kLists || place >= counts[list]) return;
   uint code = sites[uint(list * listLength) + place];
-  Receiver receivers[4];
   ivec2 site = siteOf(code);
   int number = receiverOf(code);
   // Another program listed it: a compiler may round the decision which samples share a receiver otherwise there.
-  int count = loadReceivers(firstSample(site), receivers);
-  Receiver r = receivers[clamp(number, 0, max(count, 1) - 1)];
+  Receivers all = loadReceivers(firstSample(site));
+  number = min(number, max(all.count, 1) - 1);
+  Receiver r = all.first;
+  if (number > 0) r = nextReceiver(all, number);
   ivec2 at = level > 0 ? site : ivec2(site.x, (site.y - firstRow) * 4 + number);
   imageStore(evaluated, at, vec4(shownAs(r) * litRadiosity(view, r), 0.0));
 }

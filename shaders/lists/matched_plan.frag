@@ -101,23 +101,24 @@ void enlist(Receiver r, ivec2 site, int number) {
 
 void main() {
   ivec2 site = ivec2(gl_FragCoord.xy) + ivec2(0, firstRow);
-  Receiver receivers[4];
-  int count = loadReceivers(firstSample(site), receivers);
-  if (count == 0 || (level > 0 && count > 1)) discard;
+  Receivers all = loadReceivers(firstSample(site));
+  if (all.count == 0 || (level > 0 && all.count > 1)) discard;
   vec3 sum = vec3(0.0);
   int listed = 0;
   // Its condition last: a software driver runs the whole body before it sees that nobody is left in it.
+  Receiver r = all.first;
   int i = 0;
   do {
     vec3 found;
-    if (hasCoarser == 1 && interpolated(receivers[i], site, found)) {
-      sum += shownAs(receivers[i]) * found;
+    if (hasCoarser == 1 && interpolated(r, site, found)) {
+      sum += shownAs(r) * found;
     } else {
-      enlist(receivers[i], site, i);
+      enlist(r, site, i);
       listed |= 1 << i;
     }
-  } while (++i < count);
+    r = nextReceiver(all, ++i);
+  } while (i < all.count);
   value = vec4(sum, 0.0);
-  Receiver r = receivers[0];
-  surface = vec4(dot(r.position - cameraPosition, cameraForward), octEncode(r.normal), 1.0 + float(listed));
+  float depth = dot(all.first.position - cameraPosition, cameraForward);
+  surface = vec4(depth, octEncode(all.first.normal), 1.0 + float(listed));
 }

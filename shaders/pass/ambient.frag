@@ -10,14 +10,16 @@ uniform float piC;
 layout(location = 0) out vec4 radiance;
 
 void main() {
-  Receiver receivers[4];
-  int count = loadReceivers(ivec2(gl_FragCoord.xy) * 2, receivers);
-  if (count == 0) discard;
+  Receivers all = loadReceivers(ivec2(gl_FragCoord.xy) * 2);
+  if (all.count == 0) discard;
   vec3 sum = vec3(0.0);
-  for (int i = 0; i < count; ++i) {
-    float cosO = clamp(dot(receivers[i].normal, receivers[i].view), 0.0, 1.0);
+  Receiver r = all.first;
+  int i = 0;
+  do {
+    float cosO = clamp(dot(r.normal, r.view), 0.0, 1.0);
     float mirrored = fresnelReflectance(cosO, eta);
-    sum += receivers[i].weight * (vec3(mirrored) + reflectance * piC * exitLobe(cosO, eta, piC));
-  }
+    sum += r.weight * (vec3(mirrored) + reflectance * piC * exitLobe(cosO, eta, piC));
+    r = nextReceiver(all, ++i);
+  } while (i < all.count);
   radiance = vec4(sum * ambient, 0.0);
 }

@@ -3,16 +3,15 @@
 #include "pass/seen_samples.glsl"
 
 void main() {
-  Receiver receivers[4];
-  int count = loadReceivers(pixel * 2, receivers);
+  Receivers all = loadReceivers(pixel * 2);
   place = vec4(0.0);
   share = vec4(0.0);
-  if (count == 0) return;
+  if (all.count == 0) return;
   LightView view = lightView();
-  Receiver r = receivers[0];
+  Receiver r = all.first;
   int i = int(gl_FragCoord.x);
   if (i == sampleCount << MOST_REFINEMENT) {
-    place = vec4(r.position, float(count));
+    place = vec4(r.position, float(all.count));
     share = vec4(litRadiosity(view, r), 0.0);
     return;
   }

@@ -64,27 +64,42 @@ bool together(vec3 positions[4], vec3 normals[4], int count, out Receiver receiv
   return (onePiece && (oneLobe || anyLobe == 1)) || (spread < shareWithin && agreement > 0.9);
 }
 
-// Receivers of this object among the 2 x 2 samples from `first` on, 0 to 4.
-int loadReceivers(ivec2 first, out Receiver receivers[4]) {
-  vec3 positions[4];
+// Those of a pixel, asked for in turn by nextReceiver: an array that an index picks from lies in memory, lane by lane.
+struct Receivers {
+  int count;  // 0 to 4
+  Receiver first;
+  vec3 positions[4];  // of the samples; the places after the last hold it, too
   vec3 normals[4];
-  int count = 0;
+};
+
+// Receivers of this object among the 2 x 2 samples from `first` on.
+Receivers loadReceivers(ivec2 first) {
+  Receivers all;
+  all.count = 0;
   for (int i = 0; i < 4; ++i) {
     ivec2 texel = first + ivec2(i & 1, i >> 1);
     vec4 g = texelFetch(geometry, texel, 0);
     if (g.w != objectNumber) continue;
     vec3 position = cameraPosition + rayThrough(vec2(texel) + 0.5) * g.x;
     vec3 normal = octDecode(g.yz);
-    // Constant indices keep the arrays in registers: the places after it hold it, too.
+    // Constant indices keep the arrays in registers.
     for (int j = 0; j < 4; ++j) {
-      if (j < count) continue;
-      positions[j] = position;
-      normals[j] = normal;
+      if (j < all.count) continue;
+      all.positions[j] = position;
+      all.normals[j] = normal;
     }
-    ++count;
+    ++all.count;
   }
-  if (count > 0 && together(positions, normals, count, receivers[0])) return 1;
-  for (int i = 0; i < 4; ++i)
-    if (i < count) receivers[i] = receiverAt(positions[i], normals[i], 0.25);
-  return count;
+  if (all.count > 0 && together(all.positions, all.normals, all.count, all.first))
+    all.count = 1;
+  else
+    all.first = receiverAt(all.positions[0], all.normals[0], 0.25);
+  return all;
+}
+
+// Number 1 to 3.
+Receiver nextReceiver(Receivers all, int number) {
+  vec3 position = number == 1 ? all.positions[1] : (number == 2 ? all.positions[2] : all.positions[3]);
+  vec3 normal = number == 1 ? all.normals[1] : (number == 2 ? all.normals[2] : all.normals[3]);
+  return receiverAt(position, normal, 0.25);
 }

@@ -122,13 +122,15 @@ vec3 singleScattering(LightView view, Receiver r) {
 }
 
 void main() {
-  Receiver receivers[4];
-  int count = loadReceivers(ivec2(gl_FragCoord.xy) * 2, receivers);
-  if (count == 0) discard;
+  Receivers all = loadReceivers(ivec2(gl_FragCoord.xy) * 2);
+  if (all.count == 0) discard;
   LightView view = lightView();
   vec3 sum = vec3(0.0);
+  Receiver r = all.first;
   int i = 0;
-  do sum += receivers[i].weight * singleScattering(view, receivers[i]);
-  while (++i < count);
+  do {
+    sum += r.weight * singleScattering(view, r);
+    r = nextReceiver(all, ++i);
+  } while (i < all.count);
   radiance = vec4(sum, 0.0);
 }

@@ -37,19 +37,19 @@ float visibility(LightView view, Receiver r, float cosI) {
 }
 
 void main() {
-  Receiver receivers[4];
-  int count = loadReceivers(ivec2(gl_FragCoord.xy) * 2, receivers);
-  if (count == 0) discard;
+  Receivers all = loadReceivers(ivec2(gl_FragCoord.xy) * 2);
+  if (all.count == 0) discard;
   LightView view = lightView();
   vec3 sum = vec3(0.0);
+  Receiver r = all.first;
   int i = 0;
   do {
-    Receiver r = receivers[i];
     vec3 wi = -lightTravel(view, r.position);
     vec3 response = surfaceResponse(base, eta, roughness, piC, r.normal, r.view, wi);
-    if (response.x + response.y + response.z <= 0.0) continue;
-    sum += r.weight * visibility(view, r, dot(r.normal, wi)) * response *
-           facingIrradiance(view, lightPower, r.position);
-  } while (++i < count);
+    if (response.x + response.y + response.z > 0.0)
+      sum += r.weight * visibility(view, r, dot(r.normal, wi)) * response *
+             facingIrradiance(view, lightPower, r.position);
+    r = nextReceiver(all, ++i);
+  } while (i < all.count);
   radiance = vec4(sum, 0.0);
 }
