@@ -1,16 +1,20 @@
-// Multiple scattering by the matched sampler, last part: a pixel's interpolated and evaluated receivers.
-uniform sampler2D value;      // as matched_plan.frag wrote them
-uniform sampler2D surface;
+// Multiple scattering by the matched sampler, last part: a pixel's evaluated receivers.
+uniform sampler2D listed;     // as matched_plan.frag wrote it
 uniform sampler2D evaluated;  // as matched_evaluate.comp did
 uniform int firstRow;
 
 layout(location = 0) out vec4 radiance;
 
 void main() {
-  ivec2 site = ivec2(gl_FragCoord.xy) - ivec2(0, firstRow);
-  vec3 sum = texelFetch(value, site, 0).xyz;
-  int listed = int(texelFetch(surface, site, 0).w) - 1;
-  for (int i = 0; i < 4 && listed > 0; ++i, listed >>= 1)
-    if ((listed & 1) == 1) sum += texelFetch(evaluated, ivec2(site.x, site.y * 4 + i), 0).xyz;
+  ivec2 site = ivec2(gl_FragCoord.xy);
+  int left = int(texelFetch(listed, site, 0).x);
+  if (left == 0) discard;
+  vec3 sum = vec3(0.0);
+  int row = (site.y - firstRow) * 4;
+  do {
+    if ((left & 1) == 1) sum += texelFetch(evaluated, ivec2(site.x, row), 0).xyz;
+    left >>= 1;
+    ++row;
+  } while (left > 0);
   radiance = vec4(sum, 0.0);
 }

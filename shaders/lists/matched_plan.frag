@@ -7,11 +7,11 @@ uniform sampler2D coarserSurface;
 uniform float interpolation;       // largest relative difference between neighbours that is interpolated across
 uniform float coreLength;          // of the profile: what lies nearer together differs smoothly
 uniform int hasCoarser;
-uniform int firstRow;              // of the sites drawn here
 uniform vec3 faint;                // radiosity whose differences do not show
 
 layout(location = 0) out vec4 value;    // the interpolated part
-layout(location = 1) out vec4 surface;  // depth along the camera's axis, octahedral normal, 1 + bits of the listed receivers
+layout(location = 1) out vec4 surface;  // depth along the camera's axis, octahedral normal, 1 + bits of the listed receivers; of
+                                        // pixels, whose surface nobody asks for, the bits alone
 
 const float kMostTolerance = 2.0;
 // What a straight line between neighbours may be wrong by, as a share of the difference that needs no such look.
@@ -100,7 +100,7 @@ void enlist(Receiver r, ivec2 site, int number) {
 }
 
 void main() {
-  ivec2 site = ivec2(gl_FragCoord.xy) + ivec2(0, firstRow);
+  ivec2 site = ivec2(gl_FragCoord.xy);
   Receivers all = loadReceivers(firstSample(site));
   if (all.count == 0 || (level > 0 && all.count > 1)) discard;
   vec3 sum = vec3(0.0);
@@ -120,5 +120,5 @@ void main() {
   } while (i < all.count);
   value = vec4(sum, 0.0);
   float depth = dot(all.first.position - cameraPosition, cameraForward);
-  surface = vec4(depth, octEncode(all.first.normal), 1.0 + float(listed));
+  surface = level > 0 ? vec4(depth, octEncode(all.first.normal), 1.0 + float(listed)) : vec4(float(listed));
 }

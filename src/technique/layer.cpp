@@ -18,7 +18,7 @@ bool Layer::update(const std::string& label, const Key& key, const Frame& frame,
   targets_->framebuffer.clearColour(0, {0, 0, 0, 0});
   for (size_t i = 0; i < frame.objects.size(); ++i) {
     const gpu::Rect bounds = screenBounds(frame, frame.objects[i]);
-    if (bounds.width > 0 && bounds.height > 0) shade(i, {targets_->framebuffer, bounds});
+    if (bounds.width > 0 && bounds.height > 0) shade(i, {targets_->framebuffer, targets_->texture, bounds});
   }
   key_ = key;
   return true;

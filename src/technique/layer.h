@@ -18,7 +18,8 @@ class Layer {
   /// Where an object's light goes.
   struct Target {
     const gpu::Framebuffer& framebuffer;
-    gpu::Rect bounds;  ///< pixels the object can cover
+    const gpu::Texture& texture;  ///< its only colour
+    gpu::Rect bounds;             ///< pixels the object can cover
   };
   /// Adds an object's light.
   using Shade = std::function<void(size_t object, const Target& target)>;

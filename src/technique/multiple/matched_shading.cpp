@@ -55,25 +55,30 @@ MultipleMatchedShading::MultipleMatchedShading()
       gather_(shadingProgram("matched, gather", "lists/matched_gather.frag")) {}
 
 void MultipleMatchedShading::resize(const CameraFrame& camera) {
-  const auto texture = [&](const char* label, int width, int height) {
-    return gpu::Texture({.label = label, .format = gpu::Format::kRgba32f, .width = width, .height = height});
+  const auto texture = [&](const char* label, gpu::Format format, int width, int height) {
+    return gpu::Texture({.label = label, .format = format, .width = width, .height = height});
   };
-  for (int l = 0; l < kLevels; ++l) {
+  const auto lists = [](int length) {
+    Lists result{gpu::Buffer("matched, lists"), length};
+    result.sites.resize(sizeof(ListsHeader) + size_t(kLists) * size_t(length) * sizeof(uint32_t));
+    return result;
+  };
+  const int width = camera.width, height = camera.height,
+            rows = std::min(height, std::max(1, kMostPixels / width));
+  if (pixels_ && pixels_->listed.width() == width && pixels_->listed.height() == height) return;
+  pixels_.reset();
+  pixels_.emplace(Pixels{texture("matched, listed", gpu::Format::kR32f, width, height),
+                         texture("matched, evaluated", gpu::Format::kRgba32f, width, 4 * rows),
+                         lists(4 * width * rows)});
+  for (int l = 1; l < kLevels; ++l) {
     // A last row or column that is no whole block has no site; its pixels find fewer neighbours.
-    const int width = std::max(1, camera.width >> l);
-    const int rows = l > 0 ? camera.height >> l : std::min(camera.height, kMostPixels / camera.width);
-    const int height = std::max(1, rows);
-    std::optional<Level>& level = levels_[size_t(l)];
-    if (level && level->value.width() == width && level->value.height() == height) continue;
-    level.reset();
-    gpu::Texture value = texture("matched, values", width, height);
-    gpu::Texture surface = texture("matched, surfaces", width, height);
+    const int w = std::max(1, width >> l), h = std::max(1, height >> l);
+    levels_[size_t(l) - 1].reset();
+    gpu::Texture value = texture("matched, values", gpu::Format::kRgba32f, w, h);
+    gpu::Texture surface = texture("matched, surfaces", gpu::Format::kRgba32f, w, h);
     gpu::Framebuffer framebuffer({.label = "matched", .colours = {value, surface}, .depth = {}});
-    level.emplace(Level{std::move(value), std::move(surface), std::move(framebuffer),
-                        gpu::Buffer("matched, lists"), 0});
-    level->listLength = l > 0 ? width * std::clamp(4 * kMostPixels / width, 1, height) : 4 * width * height;
-    level->sites.resize(sizeof(ListsHeader) + size_t(kLists) * size_t(level->listLength) * sizeof(uint32_t));
-    if (l == 0) evaluated_.emplace(texture("matched, evaluated", width, 4 * height));
+    levels_[size_t(l) - 1].emplace(Level{std::move(value), std::move(surface), std::move(framebuffer),
+                                         lists(w * std::clamp(4 * kMostPixels / w, 1, h))});
   }
 }
 
@@ -98,26 +103,23 @@ void MultipleMatchedShading::setSiteUniforms(gpu::Program& program, const Target
   const ProfileCache::Entry& profile = target.in.profiles.get(target.object);
   setReceiverUniforms(program, target.in.frame, target.in.geometry.samples(), target.object);
   program.set("level", level);
-  program.set("listLength", levels_[size_t(level)]->listLength);
+  program.set("listLength", listsOf(level).length);
   program.set("anyLobe", level > 0);
   program.set("eta", target.in.frame.objects[target.object].medium.eta);
   program.set("piC", profile.piC);
 }
 
-void MultipleMatchedShading::clear(int level) {
-  for (int target : {0, 1}) levels_[size_t(level)]->framebuffer.clearColour(target, {0, 0, 0, 0});
-}
-
-void MultipleMatchedShading::plan(const Target& target, int level, const gpu::Rect& sites) {
-  Level& here = *levels_[size_t(level)];
+void MultipleMatchedShading::plan(const Target& target, int level, const gpu::Framebuffer& framebuffer,
+                                  const gpu::Rect& sites) {
+  Lists& lists = listsOf(level);
   const ListsHeader empty{0, kGroupRows, 1};
-  here.sites.update(0, std::as_bytes(std::span(empty)));
+  lists.sites.update(0, std::as_bytes(std::span(empty)));
   setSiteUniforms(plan_, target, level);
   target.in.maps.get(target.object, target.light).view.setUniforms(plan_);
   const bool hasCoarser = level + 1 < kLevels && target.in.settings.interpolation > 0;
   plan_.set("hasCoarser", hasCoarser);
   if (hasCoarser) {
-    const Level& coarser = *levels_[size_t(level) + 1];
+    const Level& coarser = blocks(level + 1);
     plan_.setTexture("coarserValue", coarser.value);
     plan_.setTexture("coarserSurface", coarser.surface);
   } else {  // nothing is read, but something has to be bound
@@ -129,41 +131,47 @@ void MultipleMatchedShading::plan(const Target& target, int level, const gpu::Re
   plan_.set("coreLength", coreLength);
   plan_.set("shareWithin", kShareWithin * coreLength);
   plan_.set("faint", glm::vec3(faintRadiosity(target.in, target.object, target.light)));
-  plan_.setStorage("Sites", here.sites);
-  const gpu::Rect bounds{sites.x, level > 0 ? sites.y : 0, sites.width, sites.height};
-  plan_.set("firstRow", sites.y - bounds.y);
-  gpu::Pass pass("matched, plan", here.framebuffer, {.scissor = bounds});
+  plan_.setStorage("Sites", lists.sites);
+  const gpu::Blend blend = level > 0 ? gpu::Blend::kNone : gpu::Blend::kAdd;
+  gpu::Pass pass("matched, plan", framebuffer, {.blend = blend, .scissor = sites});
   pass.drawFullScreen(plan_);
 }
 
-void MultipleMatchedShading::evaluate(const Target& target, int level, const gpu::Rect& sites) {
-  plan(target, level, sites);
-  Level& here = *levels_[size_t(level)];
+void MultipleMatchedShading::evaluate(const Target& target, int level, int firstRow) {
+  gpu::Buffer& sites = listsOf(level).sites;
   setUniforms(evaluate_, target.in, target.object, target.light);
   setSiteUniforms(evaluate_, target, level);
-  evaluate_.setStorage("Sites", here.sites);
-  evaluate_.setImage("evaluated", level > 0 ? here.value : *evaluated_);
-  evaluate_.set("firstRow", level > 0 ? 0 : sites.y);
-  gpu::dispatch("matched, evaluate", evaluate_, here.sites);
+  evaluate_.setStorage("Sites", sites);
+  evaluate_.setImage("evaluated", level > 0 ? blocks(level).value : pixels_->evaluated);
+  evaluate_.set("firstRow", firstRow);
+  gpu::dispatch("matched, evaluate", evaluate_, sites);
+}
+
+void MultipleMatchedShading::shadeBlocks(const Target& target, int level, const gpu::Rect& pixels) {
+  Level& here = blocks(level);
+  for (int colour : {0, 1}) here.framebuffer.clearColour(colour, {0, 0, 0, 0});
+  const int most = here.lists.length / here.value.width();
+  const int end = std::min(here.value.height(), ((pixels.y + pixels.height) >> level) + 2);
+  for (int y = pixels.y >> level; y < end; y += most) {
+    plan(target, level, here.framebuffer,
+         {pixels.x >> level, y, (pixels.width >> level) + 2, std::min(most, end - y)});
+    evaluate(target, level, y);
+  }
 }
 
 void MultipleMatchedShading::shade(const Target& target, const Layer::Target& layer) {
   const gpu::Rect& all = layer.bounds;
   resize(target.in.frame.camera);
-  for (int l = kLevels - 1; l > 0 && target.in.settings.interpolation > 0; --l) {
-    clear(l);
-    const int most = levels_[size_t(l)]->listLength / levels_[size_t(l)]->value.width();
-    for (int y = all.y >> l, end = y + (all.height >> l) + 2; y < end; y += most)
-      evaluate(target, l, {all.x >> l, y, (all.width >> l) + 2, std::min(most, end - y)});
-  }
-  const int most = levels_[0]->value.height();
+  for (int l = kLevels - 1; l > 0 && target.in.settings.interpolation > 0; --l) shadeBlocks(target, l, all);
+  gpu::Framebuffer planned({.label = "matched", .colours = {layer.texture, pixels_->listed}, .depth = {}});
+  planned.clearColour(1, {0, 0, 0, 0});
+  const int most = pixels_->evaluated.height() / 4;
   for (int y = all.y; y < all.y + all.height; y += most) {
     const gpu::Rect band{all.x, y, all.width, std::min(most, all.y + all.height - y)};
-    clear(0);
-    evaluate(target, 0, band);
-    gather_.setTexture("value", levels_[0]->value);
-    gather_.setTexture("surface", levels_[0]->surface);
-    gather_.setTexture("evaluated", *evaluated_);
+    plan(target, 0, planned, band);
+    evaluate(target, 0, y);
+    gather_.setTexture("listed", pixels_->listed);
+    gather_.setTexture("evaluated", pixels_->evaluated);
     gather_.set("firstRow", y);
     gpu::Pass pass("matched, gather", layer.framebuffer, {.blend = gpu::Blend::kAdd, .scissor = band});
     pass.drawFullScreen(gather_);

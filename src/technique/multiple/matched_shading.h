@@ -25,12 +25,22 @@ class MultipleMatchedShading {
 
  private:
   static constexpr int kLevels = 3;
-  /// Sites at one distance from each other, see shaders/lists/matched_sites.glsl.
+  /// Receivers to be evaluated, see shaders/lists/matched_sites.glsl.
+  struct Lists {
+    gpu::Buffer sites;
+    int length = 0;  ///< of each, at most
+  };
+  /// Blocks of pixels.
   struct Level {
     gpu::Texture value, surface;
     gpu::Framebuffer framebuffer;
-    gpu::Buffer sites;   ///< the lists
-    int listLength = 0;  ///< of each, at most
+    Lists lists;
+  };
+  /// The pixels themselves. What they interpolate goes into the picture at once.
+  struct Pixels {
+    gpu::Texture listed;     ///< bits of the receivers that are evaluated
+    gpu::Texture evaluated;  ///< a row for each receiver of a pixel; of as many rows as are shaded at once
+    Lists lists;
   };
   /// What is drawn: an object in one light.
   struct Target {
@@ -38,15 +48,20 @@ class MultipleMatchedShading {
     size_t object, light;
   };
   void resize(const CameraFrame& camera);
-  void clear(int level);
-  void plan(const Target& target, int level, const gpu::Rect& sites);
-  void evaluate(const Target& target, int level, const gpu::Rect& sites);
+  Level& blocks(int level) { return *levels_[size_t(level) - 1]; }
+  Lists& listsOf(int level) { return level > 0 ? blocks(level).lists : pixels_->lists; }
+  /// Lists the receivers of the sites that have to be evaluated and draws what the others interpolate.
+  void plan(const Target& target, int level, const gpu::Framebuffer& framebuffer, const gpu::Rect& sites);
+  /// Evaluates those listed; the sites' first row is `firstRow`.
+  void evaluate(const Target& target, int level, int firstRow);
   void setSiteUniforms(gpu::Program& program, const Target& target, int level);
+  void shadeBlocks(const Target& target, int level, const gpu::Rect& pixels);
   void shade(const Target& target, const Layer::Target& layer);
 
   gpu::Program plan_, evaluate_, gather_;
-  std::array<std::optional<Level>, kLevels> levels_;  ///< shared by all objects and lights
-  std::optional<gpu::Texture> evaluated_;             ///< of level 0, a row for each receiver of a pixel
+  // Shared by all objects and lights.
+  std::array<std::optional<Level>, kLevels - 1> levels_;  ///< of 2 x 2 pixels, of 4 x 4
+  std::optional<Pixels> pixels_;
 };
 
 }  // namespace lychnite
