@@ -9,7 +9,6 @@ namespace lychnite::volume {
 
 namespace {
 
-constexpr float kWidth = 0.5f;    // standard deviation of the kernel, in voxels
 constexpr float kFacing = 0.05f;  // cosine of normals below which nodes are not of one surface
 constexpr float kPerCosine = 20;  // weights fall by e at 18 degrees between normals
 constexpr float kLeast = 1e-12f;

@@ -11,6 +11,7 @@ namespace lychnite::volume {
 /// fold or a thin wall. Means of constants are exact.
 class Gather {
  public:
+  static constexpr float kWidth = 0.5f;  ///< standard deviation of the kernel, in voxels
   struct Weight {
     uint32_t node;
     float weight;  ///< over the sum of weight times area

@@ -1,6 +1,11 @@
 #include "volume/picture.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <glm/common.hpp>
+#include <glm/vec2.hpp>
+#include <limits>
 
 #include "reference/picture.h"
 #include "volume/interruptible.h"
@@ -29,22 +34,54 @@ std::vector<Lanes> inOneRow(const World& world, const std::vector<std::vector<La
   return all;
 }
 
-PixelLight lightPixels(const World& world, const NodeLight& light, View& view) {
+/// What leaves where it enters, in detail finer than nodes: each spot's part is what enters there times the
+/// body's share. `used` spots of a pixel stand for all.
+struct FineLight {
+  glm::vec3 radiosity{0}, multiple{0};
+};
+
+FineLight fineLight(const RayScene& rays, const NodeLight& light, std::span<const View::Spot> spots,
+                    size_t used) {
+  FineLight result;
+  if (spots.empty()) return result;
+  used = std::min(used, spots.size());
+  glm::vec2 all(0), seen(0);  // of the weights
+  for (const View::Spot& spot : spots) all += glm::vec2(spot.radiosity, spot.radiance);
+  for (size_t i = 0; i < used; ++i) {
+    const View::Spot& spot = spots[i * spots.size() / used];
+    seen += glm::vec2(spot.radiosity, spot.radiance);
+    const glm::vec3 &a = light.fineAll[spot.object], &m = light.fineMultiple[spot.object];
+    if (a == glm::vec3(0) && m == glm::vec3(0)) continue;
+    const glm::vec3 E(enteringIrradiance(rays, double(rays.medium(int(spot.object)).eta), spot.point, -1));
+    result.radiosity += spot.radiosity * a * E;
+    result.multiple += spot.radiance * m * E;
+  }
+  const glm::vec2 scale = all / glm::max(seen, glm::vec2(1e-20f));
+  return {result.radiosity * scale.x, result.multiple * scale.y};
+}
+
+PixelLight lightPixels(const RayScene& rays, const World& world, const NodeLight& light, View& view,
+                       bool preview) {
   const std::vector<Lanes> all = inOneRow(world, light.all), multiple = inOneRow(world, light.multiple),
                            error = inOneRow(world, light.error);
-  const std::vector<glm::vec3> none(view.receivers().covered.size(), glm::vec3(0));
-  PixelLight result{none, none, none};
+  const std::vector<glm::vec3> dark(view.receivers().covered.size(), glm::vec3(0));
+  PixelLight result{dark, dark, dark};
   const auto sumUp = [](std::span<const View::Share> shares, const std::vector<Lanes>& flux,
                         float View::Share::*part) {
     Lanes sum{0, 0, 0, 0};
     if (!flux.empty())
       for (const View::Share& share : shares) sum += share.*part * flux[share.node];
-    return glm::max(glm::vec3(sum[0], sum[1], sum[2]), glm::vec3(0));
+    return glm::vec3(sum[0], sum[1], sum[2]);
   };
-  view.forPixels([&](uint32_t pixel, std::span<const View::Share> shares) {
-    result.radiosity[pixel] = sumUp(shares, all, &View::Share::radiosity);
-    result.multiple[pixel] = sumUp(shares, multiple, &View::Share::radiance);
-    result.error[pixel] = sumUp(shares, error, &View::Share::radiance);
+  const size_t used = preview ? 1 : std::numeric_limits<size_t>::max();
+  view.forPixels([&](const View::Pixel& pixel) {
+    const FineLight fine = fineLight(rays, light, pixel.spots, used);
+    const glm::vec3 none(0);
+    result.radiosity[pixel.index] =
+        glm::max(sumUp(pixel.shares, all, &View::Share::radiosity) + fine.radiosity, none);
+    result.multiple[pixel.index] =
+        glm::max(sumUp(pixel.shares, multiple, &View::Share::radiance) + fine.multiple, none);
+    result.error[pixel.index] = sumUp(pixel.shares, error, &View::Share::radiance);
   });
   return result;
 }
@@ -52,14 +89,14 @@ PixelLight lightPixels(const World& world, const NodeLight& light, View& view) {
 }  // namespace
 
 Image volumePicture(const RayScene& rays, const World& world, const NodeLight& light, View& view,
-                    const std::vector<glm::vec3>& single, const RenderSettings& settings,
+                    const std::vector<glm::vec3>& single, const RenderSettings& settings, bool preview,
                     const Progress& progress) {
   const Interruptible inside(progress, {"volume: picture", 0, ""});
   const CameraReceivers& receivers = view.receivers();
   PictureParts parts;
   PixelLight pixels;
   if (settings.components.multiple || settings.wants("radiosity") || settings.wants("stderr"))
-    pixels = lightPixels(world, light, view);
+    pixels = lightPixels(rays, world, light, view, preview);
   if (settings.components.multiple) parts.multiple = std::move(pixels.multiple);
   parts.single = single;
   if (settings.components.surface) parts.surface = surfacePart(rays, receivers);
@@ -67,6 +104,25 @@ Image volumePicture(const RayScene& rays, const World& world, const NodeLight& l
   if (settings.wants("radiosity")) addLayer(image, "radiosity", pixels.radiosity);
   if (settings.wants("stderr")) addLayer(image, "stderr", pixels.error);
   return image;
+}
+
+void tellStats(const VolumeStats& stats, Image& image) {
+  const auto put = [&](const char* key, const std::string& value) {
+    image.metadata[std::string("volume.") + key] = value;
+  };
+  const auto rgb = [](const Rgb& c) { return fmt::format("{:.6g} {:.6g} {:.6g}", c.x, c.y, c.z); };
+  put("geometry_ms", fmt::format("{:.1f}", stats.geometryMs));
+  put("source_ms", fmt::format("{:.1f}", stats.sourceMs));
+  put("solve_ms", fmt::format("{:.1f}", stats.solveMs));
+  put("exchange_ms", fmt::format("{:.1f}", stats.exchangeMs));
+  put("cells", fmt::format("{}", stats.cells));
+  put("memory_bytes", fmt::format("{}", stats.memoryBytes));
+  put("passes", fmt::format("{}", stats.passes));
+  put("iterations", fmt::format("{}", stats.iterations));
+  put("left", rgb(stats.left));
+  put("absorbed", rgb(stats.absorbed));
+  put("unscattered", rgb(stats.unscattered));
+  put("lost", rgb(stats.lost));
 }
 
 }  // namespace lychnite::volume

@@ -6,6 +6,8 @@
 #include <glm/common.hpp>
 #include <unordered_map>
 
+#include "volume/gather.h"
+
 namespace lychnite::volume {
 
 namespace {
@@ -21,6 +23,7 @@ constexpr double kLooks = 4;        // for the first order, without photons, per
 constexpr float kBlock = 4;         // voxels: errors are averaged over 3 x 3 x 3 blocks of this side
 constexpr double kChoiceWidth = 2;  // voxels, by which the choice of widths is blended
 constexpr double kVarianceWidth = 2;
+constexpr float kLeastFine = 0.005f;  // of what enters, finer than nodes, worth looking for
 
 using Field = std::vector<Lanes>;
 
@@ -195,6 +198,23 @@ std::vector<Lanes> cleanedFirst(const Smoother& smoother, const NodeEstimate& es
                                 const FirstOrder& first) {
   const double width = leastWidth(std::max(kLooks, estimate.photons));
   return blended(smoother, estimate.entering, {{first.flux, first.response, width}}, {})[0];
+}
+
+glm::vec3 fineShare(const Smoother::Response& response, double finest) {
+  constexpr double kFirst = 0.05, kLast = 50, kStep = 1.1;  // radians per voxel
+  constexpr double kVariance =
+      double(Gather::kWidth) * double(Gather::kWidth) + 1.0 / 48;  // nodes are half voxels
+  glm::dvec3 sum(0);
+  double all = 0;
+  for (double q = kFirst; q < kLast; q *= kStep) {
+    const double lost = -std::expm1(-0.5 * kVariance * q * q);
+    const double weight = lost * lost / q;  // q^-3 q dq, and dq goes with q
+    for (int c = 0; c < 3; ++c) sum[c] += weight * response(q, c);
+    all += weight;
+  }
+  glm::vec3 share(sum / all);
+  for (int c = 0; c < 3; ++c) share[c] = std::min(share[c], float(response(finest, c)));
+  return std::max({share.x, share.y, share.z}) < kLeastFine ? glm::vec3(0) : share;
 }
 
 }  // namespace lychnite::volume

@@ -32,6 +32,13 @@ struct FirstOrder {
 NodeFlux cleaned(const Smoother& smoother, const Surface& surface, const NodeEstimate& estimate,
                  const Smoother::Response& response, const FirstOrder* first);
 
+/// Of an edge in what enters, the share that leaves at once with its detail that nodes are too coarse to
+/// tell: the a of least square error between a (1 - K) and (1 - K) response, K what nodes and Gather keep,
+/// over the spectrum of edges, q^-3; but not more than the response to the shortest wave that the picture
+/// shows, `finest` radians per voxel, so that no edge is sharper than it should be. 0 where it is next to
+/// nothing.
+glm::vec3 fineShare(const Smoother::Response& response, double finest);
+
 /// The first order alone, smoothed by one width.
 std::vector<Lanes> cleanedFirst(const Smoother& smoother, const NodeEstimate& estimate,
                                 const FirstOrder& first);

@@ -13,35 +13,61 @@ namespace lychnite::volume {
 namespace {
 
 constexpr size_t kBlock = 1024;            // pixels
-constexpr size_t kMostBytes = 512u << 20;  // of shares that are kept: some 1.5 million pixels
+constexpr size_t kMostBytes = 512u << 20;  // of what is kept: some 1.2 million pixels
 constexpr double kSameCamera = 1e-9;       // lengths over the scene's: what sizes round to
 
-/// Finds the shares of pixels. Where a surface turns away from the eye or ends, a pixel spans much of it: a
-/// raster of rays stands for it there, so that the mean is over area, as that of the walk's splats.
+/// A hit moved onto the smooth surface that the interpolated normals tell of, or left where it is if that
+/// lies inside: from there neighbouring facets cast no shadow [Hanika2021].
+glm::vec3 onSmoothSurface(const RayMesh& mesh, const RayHit& hit) {
+  const glm::uvec3 corners = (*mesh.triangles)[hit.triangle];
+  const glm::vec3 weights(1 - hit.u - hit.v, hit.u, hit.v);
+  glm::vec3 result = hit.position;
+  for (int c = 0; c < 3; ++c) {
+    const glm::vec3& normal = mesh.normals[corners[c]];
+    const float below = glm::dot(mesh.positions[corners[c]] - hit.position, normal);
+    if (below > 0) result += weights[c] * below * normal;
+  }
+  return result;
+}
+
+/// Finds the shares of pixels. Where a surface turns away from the eye or ends, or pixels are larger than
+/// voxels, a pixel spans much of it: a raster of rays stands for it there, so that the mean is over the
+/// pixel, as that of the walk's splats.
 class Looker {
  public:
   Looker(const RayScene& rays, const World& world, const CameraFrame& camera,
          const std::vector<uint32_t>& firstNode)
-      : rays_(rays), world_(world), camera_(camera), firstNode_(firstNode) {}
+      : rays_(rays),
+        world_(world),
+        camera_(camera),
+        pixel_(float(2 * camera.tanHalfFovY / camera.height)),
+        firstNode_(firstNode) {}
 
-  /// Of one pixel, whose receivers are given; nodes in order, valid until the next call.
-  const std::vector<View::Share>& look(const Receiver* begin, const Receiver* end) {
+  /// Of one pixel, whose receivers are given.
+  void look(const Receiver* begin, const Receiver* end) {
     shares_.clear();
-    if (end - begin == 1 && begin->weight == 1 && glm::dot(begin->normal, begin->view) > kSteep) {
-      add(begin->hit, begin->normal, begin->view, 1);
-      return shares_;
-    }
+    spots_.clear();
+    if (end - begin == 1 && isPlain(*begin)) return add(begin->hit, begin->normal, begin->view, 1);
     const int column = int(begin->pixel) % camera_.width, row = int(begin->pixel) / camera_.width;
     for (int j = 0; j < kRaster; ++j)
       for (int i = 0; i < kRaster; ++i) addPart(column, row, i, j);
     merge();
-    return shares_;
   }
+  /// Of the last look; nodes in order.
+  const std::vector<View::Share>& shares() const { return shares_; }
+  const std::vector<View::Spot>& spots() const { return spots_; }
 
  private:
   static constexpr float kSteep = 0.45f;  // cosine to the eye
   static constexpr int kRaster = 4;       // parts of a pixel each way, one look at the light each
   static constexpr int kCoverage = 2;     // rays of a part each way, that tell how much of it is covered
+
+  /// Whether one look at its middle tells a pixel.
+  bool isPlain(const Receiver& receiver) const {
+    const auto& body = world_.bodies[size_t(receiver.hit.object)];
+    return receiver.weight == 1 && glm::dot(receiver.normal, receiver.view) > kSteep &&
+           (!body || receiver.depth * pixel_ < float(body->shape->grid.side()) * body->size);
+  }
 
   /// Part (i, j) of a pixel, weighted by its share.
   void addPart(int column, int row, int i, int j) {
@@ -74,6 +100,8 @@ class Looker {
     Gather::weigh(*body.shape, body.toLocal(hit.position), body.turnBack * normal, cell, weights_);
     const double cosO = glm::clamp(double(glm::dot(normal, view)), 0.0, 1.0);
     const auto lobe = float(exitLobe(cosO, double(body.medium.eta)));
+    spots_.push_back(
+        {{onSmoothSurface(rays_.mesh(hit.object), hit), normal}, uint32_t(object), weight, weight * lobe});
     for (const Gather::Weight& w : weights_)
       shares_.push_back({firstNode_[object] + w.node, weight * w.weight, weight * w.weight * lobe});
   }
@@ -96,9 +124,11 @@ class Looker {
   const RayScene& rays_;
   const World& world_;
   const CameraFrame& camera_;
+  const float pixel_;  ///< its side at a depth of 1
   const std::vector<uint32_t>& firstNode_;
   std::vector<Gather::Weight> weights_;
   std::vector<View::Share> shares_;
+  std::vector<View::Spot> spots_;
 };
 
 std::vector<float> etasOf(const World& world) {
@@ -145,27 +175,36 @@ View::Block View::make(size_t block) const {
   Block result;
   Looker looker(rays_, world_, camera_, firstNode_);
   for (size_t p = block * kBlock; p < std::min(first_.size() - 1, (block + 1) * kBlock); ++p) {
-    const auto& shares = looker.look(all.data() + first_[p], all.data() + first_[p + 1]);
-    result.shares.insert(result.shares.end(), shares.begin(), shares.end());
+    looker.look(all.data() + first_[p], all.data() + first_[p + 1]);
+    result.shares.insert(result.shares.end(), looker.shares().begin(), looker.shares().end());
+    result.spots.insert(result.spots.end(), looker.spots().begin(), looker.spots().end());
     result.last.push_back(uint32_t(result.shares.size()));
+    result.lastSpot.push_back(uint32_t(result.spots.size()));
   }
   result.shares.shrink_to_fit();
+  result.spots.shrink_to_fit();
   return result;
 }
 
-void View::forPixels(const std::function<void(uint32_t, std::span<const Share>)>& visit) {
+size_t View::Block::memoryBytes() const {
+  return shares.size() * sizeof(Share) + spots.size() * sizeof(Spot) + 2 * last.size() * sizeof(uint32_t);
+}
+
+void View::forPixels(const std::function<void(const Pixel&)>& visit) {
   tbb::parallel_for(size_t(0), blocks_.size(), [&](size_t b) {
     Interruptible::check();
     Block made;
     if (blocks_[b].last.empty()) made = make(b);
     const Block& block = made.last.empty() ? blocks_[b] : made;
-    uint32_t begin = 0;
+    uint32_t begin = 0, beginSpot = 0;
     for (size_t i = 0; i < block.last.size(); ++i) {
-      visit(receivers_.receivers[first_[b * kBlock + i]].pixel,
-            std::span(block.shares).subspan(begin, block.last[i] - begin));
+      visit({receivers_.receivers[first_[b * kBlock + i]].pixel,
+             std::span(block.shares).subspan(begin, block.last[i] - begin),
+             std::span(block.spots).subspan(beginSpot, block.lastSpot[i] - beginSpot)});
       begin = block.last[i];
+      beginSpot = block.lastSpot[i];
     }
-    const size_t bytes = made.shares.size() * sizeof(Share) + made.last.size() * sizeof(uint32_t);
+    const size_t bytes = made.memoryBytes();
     if (made.last.empty() || kept_ + bytes > kMostBytes) return;
     kept_ += bytes;
     blocks_[b] = std::move(made);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "reference/single_light.h"
+#include "reference/surface_samples.h"
 #include "volume/gather.h"
 #include "volume/photons.h"
 
@@ -29,18 +30,31 @@ class View {
     uint32_t node;
     float radiosity, radiance;
   };
+  /// A point that a pixel sees, and what one unit of radiosity there adds to the pixel's.
+  struct Spot {
+    SurfacePoint point;  ///< of the smooth surface, so that facets do not show
+    uint32_t object;
+    float radiosity, radiance;
+  };
+  struct Pixel {
+    uint32_t index;  ///< row * width + column
+    std::span<const Share> shares;
+    std::span<const Spot> spots;
+  };
   /// Whether all pixels' shares were found out, and kept where that takes little memory.
   bool complete() const { return complete_; }
-  /// Calls visit(pixel, shares) for all pixels that see something, on several threads at once. Finds the
-  /// shares out when first asked and keeps them as far as they take little memory.
-  void forPixels(const std::function<void(uint32_t, std::span<const Share>)>& visit);
+  /// Calls visit(pixel) for all pixels that see something, on several threads at once. Finds them out when
+  /// first asked and keeps them as far as they take little memory.
+  void forPixels(const std::function<void(const Pixel&)>& visit);
 
   size_t memoryBytes() const;
 
  private:
   struct Block {
-    std::vector<uint32_t> last;  ///< of each pixel, the share after its last one
+    std::vector<uint32_t> last, lastSpot;  ///< of each pixel, the share and the spot after its last one
     std::vector<Share> shares;
+    std::vector<Spot> spots;
+    size_t memoryBytes() const;
   };
   Block make(size_t block) const;
 

@@ -9,6 +9,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <map>
+#include <numbers>
 
 #include "lychnite/base/error.h"
 #include "reference/single_light.h"
@@ -32,25 +33,6 @@ constexpr uint64_t kSinglePasses = 16;
 
 double since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
-
-void tellStats(const VolumeStats& stats, Image& image) {
-  const auto put = [&](const char* key, const std::string& value) {
-    image.metadata[std::string("volume.") + key] = value;
-  };
-  const auto rgb = [](const Rgb& c) { return fmt::format("{:.6g} {:.6g} {:.6g}", c.x, c.y, c.z); };
-  put("geometry_ms", fmt::format("{:.1f}", stats.geometryMs));
-  put("source_ms", fmt::format("{:.1f}", stats.sourceMs));
-  put("solve_ms", fmt::format("{:.1f}", stats.solveMs));
-  put("exchange_ms", fmt::format("{:.1f}", stats.exchangeMs));
-  put("cells", fmt::format("{}", stats.cells));
-  put("memory_bytes", fmt::format("{}", stats.memoryBytes));
-  put("passes", fmt::format("{}", stats.passes));
-  put("iterations", fmt::format("{}", stats.iterations));
-  put("left", rgb(stats.left));
-  put("absorbed", rgb(stats.absorbed));
-  put("unscattered", rgb(stats.unscattered));
-  put("lost", rgb(stats.lost));
 }
 
 bool sameRays(const RayLight& a, const RayLight& b) {
@@ -107,6 +89,7 @@ struct VolumeSolver::Impl {
   NodeEstimate estimate(size_t object) const;
   FirstOrder firstOrder(size_t object, const std::vector<Lanes>& entering) const;
   NodeFlux flux(int object, Orders orders) const;
+  glm::vec3 takeFine(size_t object, Orders orders, const CameraFrame& camera, std::vector<Lanes>& flux) const;
   void refine(bool last, const Progress& progress);
   View& viewOf(int width, int height);
   const std::vector<glm::vec3>& singleOf(uint64_t seed, Detail detail, const Progress& progress);
@@ -235,6 +218,24 @@ NodeFlux VolumeSolver::Impl::flux(int object, Orders orders) const {
   return cleaned(smoother, body.shape->surface, known, response, &first);
 }
 
+/// Takes from a body's flux what pixels add themselves where nodes are too coarse: a share of what enters.
+glm::vec3 VolumeSolver::Impl::takeFine(size_t object, Orders orders, const CameraFrame& camera,
+                                       std::vector<Lanes>& flux) const {
+  const Body& body = *world.bodies[object];
+  const double h = body.shape->grid.side();
+  const std::vector<Lanes> entering = estimate(object).entering;
+  FirstOrder first;
+  if (orders == Orders::kMultiple) first = firstOrder(object, entering);
+  const double pixel = 2 * camera.tanHalfFovY / camera.height *
+                       glm::distance(camera.position, glm::dvec3(body.position)) / double(body.size);
+  const Smoother::Response response = [&](double q, int c) {
+    return body.system.medium().channel[c].response(q / h) - (first.response ? first.response(q, c) : 0);
+  };
+  const glm::vec3 share = fineShare(response, std::numbers::pi * h / pixel);
+  addScaled(entering, Lanes{-share.x, -share.y, -share.z, 0}, flux);
+  return share;
+}
+
 /// Sums up the statistics of all lights.
 void VolumeSolver::Impl::tell() {
   stats.cells = stats.nodes = stats.samples = stats.memoryBytes = 0;
@@ -301,17 +302,6 @@ void orForget(LightField& field, Work work) {
     field = {};
     throw;
   }
-}
-
-int volumeCells(const Scene& scene) {
-  constexpr int kUsual = 64, kMore = 96;
-  for (const Object& object : scene.objects) {
-    const Coefficients& m = object.material.medium;
-    const Rgb reduced = m.sigma_a + (1 - m.g) * m.sigma_s;
-    if (!object.material.opaque && object.size * (reduced.x + reduced.y + reduced.z) / 3 > kUsual)
-      return kMore;
-  }
-  return kUsual;
 }
 
 VolumeSolver::VolumeSolver() : impl_(std::make_unique<Impl>()) {}
@@ -427,15 +417,21 @@ const std::vector<glm::vec3>& VolumeSolver::Impl::singleOf(uint64_t seed, Detail
 
 Image VolumeSolver::picture(const RenderSettings& settings, const Progress& progress, Detail detail) const {
   const Interruptible inside(progress, {"volume: picture", 0, ""});
+  const CameraFrame camera = impl_->rays->camera(settings.width, settings.height);
   NodeLight light;
   for (size_t i = 0; i < impl_->world.bodies.size(); ++i) {
     for (auto* part : {&light.all, &light.multiple, &light.error}) part->emplace_back();
+    for (auto* part : {&light.fineAll, &light.fineMultiple}) part->emplace_back(0);
     if (!impl_->world.bodies[i]) continue;
     const bool error = settings.wants("stderr");
-    if (settings.wants("radiosity")) light.all.back() = impl_->flux(int(i), Orders::kAll).flux;
+    if (settings.wants("radiosity")) {
+      light.all.back() = impl_->flux(int(i), Orders::kAll).flux;
+      light.fineAll.back() = impl_->takeFine(i, Orders::kAll, camera, light.all.back());
+    }
     if (!settings.components.multiple && !error) continue;
     NodeFlux multiple = impl_->flux(int(i), Orders::kMultiple);
     light.multiple.back() = std::move(multiple.flux);
+    light.fineMultiple.back() = impl_->takeFine(i, Orders::kMultiple, camera, light.multiple.back());
     light.error.back() = std::move(multiple.variance);
     for (Lanes& e : light.error.back())
       for (int c = 0; c < 3; ++c) e[c] = std::sqrt(e[c]);
@@ -443,7 +439,8 @@ Image VolumeSolver::picture(const RenderSettings& settings, const Progress& prog
   View& view = impl_->viewOf(settings.width, settings.height);
   const std::vector<glm::vec3> none;
   const auto& single = settings.components.single ? impl_->singleOf(settings.seed, detail, progress) : none;
-  return volumePicture(*impl_->rays, impl_->world, light, view, single, settings, progress);
+  return volumePicture(*impl_->rays, impl_->world, light, view, single, settings, detail == Detail::kPreview,
+                       progress);
 }
 
 bool VolumeSolver::keepsView(const RenderSettings& settings) const {

@@ -72,10 +72,10 @@ class VolumeSolver {
   /// told by two halves of the photons. 0 without photons.
   double noise() const;
 
-  /// How carefully a picture's single scattering is summed up.
+  /// How carefully a picture's single scattering is summed up, and shadows' edges on large objects.
   enum class Detail {
     kPreview,  ///< in a tenth of the time: 3 to 5 % off by pixel, 6 to 8 % at edges, shadows inside softened
-               ///< by some pixels; as kFull where that is kept
+               ///< by some pixels; as kFull where that is kept. One look a pixel for shadows' edges
     kFull
   };
 

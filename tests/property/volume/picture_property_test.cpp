@@ -147,5 +147,46 @@ TEST(VolumePicture, APreviewIsNearTheFullOne) {
   }
 }
 
+/// Brightness along the middle row of a plate of marble, half of which another one shades, over that of the
+/// lit half.
+std::vector<double> acrossAShadow(double size, VolumeSolver::Detail detail) {
+  Scene scene;
+  for (const double height : {0.0, 0.3}) {
+    scene.objects.push_back({.mesh = builtinMesh("slab"), .size = size, .position = {0, 0, height * size}});
+    scene.objects.back().material.medium = findMaterial("marble", "").coefficients;
+  }
+  scene.objects[1].material.opaque = true;
+  scene.objects[1].position.x = size;  // half of the plate lies in its shadow, seen past it from the left
+  scene.lights.push_back(ParallelLight{.azimuth = 60, .elevation = 0});
+  scene.camera = OrbitCamera{.azimuth = -30, .elevation = 0};
+  VolumeSolver solver;
+  solver.update(scene, kQuick);
+  RenderSettings settings;
+  settings.width = settings.height = 192;
+  settings.components = {.multiple = true, .single = false, .surface = false};
+  const Image image = solver.picture(settings, {}, detail);
+  std::vector<double> row;
+  for (int x = 0; x < 192; ++x) row.push_back(double(image.rgb(size_t(96 * 192 + x)).g));
+  const double most = *std::max_element(row.begin(), row.end());
+  for (double& value : row) value /= most;
+  return row;
+}
+
+TEST(VolumePicture, ShadowsOfLargeObjectsAreSharpAndOfSmallOnesAreNot) {
+  const auto pixelsOfTheEdge = [](const std::vector<double>& row) {
+    // From the lit half to the dark one: the last bright pixel and the first dark one after it.
+    const auto lit = std::find_if(row.rbegin(), row.rend(), [](double v) { return v > 0.8; }).base();
+    const auto dark = std::find_if(lit, row.end(), [](double v) { return v < 0.2; });
+    return int(dark - lit) + 1;
+  };
+  for (const auto detail : {VolumeSolver::Detail::kFull, VolumeSolver::Detail::kPreview})
+    EXPECT_LE(pixelsOfTheEdge(acrossAShadow(20000, detail)), 2);
+  const std::vector<double> small = acrossAShadow(60, VolumeSolver::Detail::kFull);
+  EXPECT_GE(pixelsOfTheEdge(small), 4);
+  double step = 0;  // from the middle of the lit half on
+  for (size_t x = 64; x < small.size(); ++x) step = std::max(step, small[x - 1] - small[x]);
+  EXPECT_LT(step, 0.25);
+}
+
 }  // namespace
 }  // namespace lychnite
