@@ -3,9 +3,11 @@
 //
 // Usage: accuracy --references DIR [--models DIR] [--methods a,b,...] [--pictures DIR] > tables.md
 //   --references  the walk's pictures and the scores are kept there, and found again
-//   --models      folder of bunny_filled.ply and nefertiti.ply; what is not there is left out, and said
+//   --models      folder of bunny_filled.ply, spot.ply and nefertiti.ply; what is not there is left out, and
+//   said
 //   --methods     profiles (summed by `hierarchical`) and methods; default: the four profiles
 //   --pictures    also writes the pictures side by side
+//   --sheets      only writes a picture for each shape: the walk and the methods at 3, 30 and 300 mm
 //   --made yes    only prints the scores that are kept; cells without one are shown as "-"
 #include <fmt/format.h>
 
@@ -109,7 +111,7 @@ class Study {
     if (objects_.contains(model)) return true;
     const fs::path file = models_ / (model + ".ply");
     const bool onDisk = !models_.empty() && fs::exists(file);
-    if (!onDisk && (model == "bunny_filled" || model == "nefertiti")) return false;
+    if (!onDisk && (model == "bunny_filled" || model == "spot" || model == "nefertiti")) return false;
     objects_[model] = loadObject(onDisk ? file.string() : model);
     return true;
   }
@@ -124,7 +126,7 @@ class Study {
   }
 
   /// One half of the truth, of resolution `pixels`, from disk where it is.
-  Image truth(const Cell& cell, int half, int pixels, double seconds, double noise) {
+  Image truth(const Cell& cell, int half, int pixels, double seconds, double noise, int threads = 1) {
     const fs::path path = references_ / fmt::format("{}-{}-{}.exr", cell.name(), pixels, half);
     if (fs::exists(path)) return readImage(path);
     RenderSettings settings = settingsOf(Method::kWalk, pixels);
@@ -132,7 +134,7 @@ class Study {
     settings.seed = uint64_t(half) + 1;
     settings.timeLimit = seconds;
     settings.noise = noise;
-    settings.threads = 1;
+    settings.threads = threads;
     Image image = maker_.render(sceneOf(cell), settings);
     writeExr(image, path);
     return image;
@@ -263,19 +265,13 @@ Image pictureOf(const std::vector<glm::dvec3>& values, const Image& like) {
   return image;
 }
 
-/// Upper row: the walk and the columns at one exposure; lower row: their error maps.
-void writePictures(Study& study, const Cell& cell, const std::vector<Column>& columns,
-                   const fs::path& folder) {
-  constexpr int kPixels = 160;
-  const Image walk = study.truth(cell, 0, kPixels, 60, 0.02);
-  std::vector<Image> pictures;
-  std::vector<std::string> labels{"walk"};
-  pictures.push_back(pictureOf(valuesOf(walk, "radiosity"), walk));
-  for (const Column& column : columns) {
-    if (column.fromSecond) continue;
-    pictures.push_back(pictureOf(study.values(cell, column, kPixels), walk));
-    labels.push_back(column.name);
-  }
+/// The walk and the columns at one exposure, then the columns' error maps.
+std::vector<Image> picturesOf(Study& study, const Cell& cell, const std::vector<Column>& columns, int pixels,
+                              double seconds) {
+  const Image walk = study.truth(cell, 0, pixels, seconds, 0.02, 0);
+  std::vector<Image> pictures{pictureOf(valuesOf(walk, "radiosity"), walk)};
+  for (const Column& column : columns)
+    pictures.push_back(pictureOf(study.values(cell, column, pixels), walk));
   std::vector<float> light;
   for (size_t i = 0; i < walk.pixelCount(); ++i)
     if (walk.channel("A")[i] == 1) light.push_back(pictures[0].rgb(i).y);
@@ -284,18 +280,45 @@ void writePictures(Study& study, const Cell& cell, const std::vector<Column>& co
   for (Image& picture : pictures)
     for (size_t i = 0; i < picture.pixelCount(); ++i)
       picture.setRgb(i, picture.rgb(i) * float(std::exp2(exposure)));
-  const size_t n = pictures.size();
-  for (size_t i = 1; i < n; ++i) pictures.push_back(errorMap(pictures[i], pictures[0]));
+  for (size_t i = 1; i <= columns.size(); ++i) pictures.push_back(errorMap(pictures[i], pictures[0]));
+  return pictures;
+}
+
+/// For each cell two rows: the walk and the columns, and their errors.
+void writePictures(Study& study, const std::vector<Cell>& cells, std::vector<Column> columns, int pixels,
+                   double seconds, const fs::path& path) {
+  std::erase_if(columns, [](const Column& column) { return column.fromSecond; });
+  std::vector<std::vector<Image>> rows;
+  for (const Cell& cell : cells) {
+    fmt::print(stderr, "\r{}    ", cell.name());
+    rows.push_back(picturesOf(study, cell, columns, pixels, seconds));
+  }
+  const Image blank = pictureOf(std::vector<glm::dvec3>(size_t(pixels) * size_t(pixels)), rows[0][0]);
   std::vector<Panel> panels;
-  for (size_t i = 0; i < n; ++i) panels.push_back({&pictures[i], labels[i]});
-  const Image blank = pictureOf(std::vector<glm::dvec3>(walk.pixelCount()), walk);
-  panels.push_back({&blank, "error, 0 to 50 %"});
-  for (size_t i = n; i < pictures.size(); ++i) panels.push_back({&pictures[i], ""});
-  writePng(montage(panels, {}, int(n)), folder / (cell.name() + ".png"));
+  for (size_t r = 0; r < cells.size(); ++r) {
+    panels.push_back({&rows[r][0], fmt::format("walk, {} mm", cells[r].size)});
+    for (size_t c = 0; c < columns.size(); ++c) panels.push_back({&rows[r][c + 1], columns[c].name});
+    panels.push_back({&blank, "error, 0 to 50 %"});
+    for (size_t c = 0; c < columns.size(); ++c) panels.push_back({&rows[r][columns.size() + 1 + c], ""});
+  }
+  writePng(montage(panels, {}, int(columns.size() + 1)), path);
+}
+
+/// One picture for each shape.
+void writeSheets(Study& study, const std::vector<Column>& columns, const fs::path& folder) {
+  constexpr int kPixels = 120;
+  constexpr double kSeconds = 20;
+  fs::create_directories(folder);
+  for (const char* model : {"sphere", "slab", "figurine", "knot", "bunny_filled", "spot", "nefertiti"}) {
+    if (!study.has(model)) continue;
+    std::vector<Cell> cells;
+    for (const double size : {3.0, 30.0, 300.0}) cells.push_back({model, "fig6", size});
+    writePictures(study, cells, columns, kPixels, kSeconds, folder / fmt::format("{}.png", model));
+  }
 }
 
 struct Arguments {
-  fs::path references, models, pictures;
+  fs::path references, models, pictures, sheets;
   bool made = false;
   std::string methods = "dipole,better-dipole,normalized-diffusion,tabulated";
 };
@@ -307,6 +330,7 @@ Arguments parse(int argc, char** argv) {
     if (flag == "--references") arguments.references = argv[i + 1];
     if (flag == "--models") arguments.models = argv[i + 1];
     if (flag == "--pictures") arguments.pictures = argv[i + 1];
+    if (flag == "--sheets") arguments.sheets = argv[i + 1];
     if (flag == "--made") arguments.made = true;
     if (flag == "--methods") arguments.methods = argv[i + 1];
   }
@@ -321,6 +345,7 @@ void run(const Arguments& arguments) {
   std::vector<Column> columns;
   for (const std::string& name : split(arguments.methods, ',')) columns.push_back(columnOf(name));
   Study study(arguments.references, arguments.models);
+  if (!arguments.sheets.empty()) return writeSheets(study, columns, arguments.sheets);
   std::vector<std::string> models;
   for (const char* model : kModels) {
     if (study.has(model))
@@ -350,7 +375,8 @@ void run(const Arguments& arguments) {
   fs::create_directories(arguments.pictures);
   for (const Cell& cell : {Cell{"figurine", "fig6", 3}, Cell{"figurine", "skin1", 10},
                            Cell{"bunny_filled", "fig6", 10}, Cell{"bunny_filled", "marble", 30}})
-    if (study.has(cell.model)) writePictures(study, cell, columns, arguments.pictures);
+    if (study.has(cell.model))
+      writePictures(study, {cell}, columns, 160, 30, arguments.pictures / (cell.name() + ".png"));
 }
 
 }  // namespace
