@@ -1,10 +1,10 @@
 // Makes the tables and pictures of docs/accuracy.md: how far methods are from the walk, over models, sizes
 // and materials. The walk is rendered twice, independently, so that its noise is not counted as error.
 //
-// Usage: accuracy --references DIR [--models DIR] [--methods a,b,...] [--pictures DIR] > tables.md
+// Usage: accuracy --references DIR [--models DIR] [--methods a,b,...] [--pictures DIR] [--sheets DIR]
+//   > tables.md
 //   --references  the walk's pictures and the scores are kept there, and found again
-//   --models      folder of bunny_filled.ply, spot.ply and nefertiti.ply; what is not there is left out, and
-//   said
+//   --models      folder of bunny_filled.ply, spot.ply and nefertiti.ply; others are left out, and named
 //   --methods     profiles (summed by `hierarchical`) and methods; default: the four profiles
 //   --pictures    also writes the pictures side by side
 //   --sheets      only writes a picture for each shape: the walk and the methods at 3, 30 and 300 mm
@@ -307,7 +307,7 @@ void writePictures(Study& study, const std::vector<Cell>& cells, std::vector<Col
 /// One picture for each shape.
 void writeSheets(Study& study, const std::vector<Column>& columns, const fs::path& folder) {
   constexpr int kPixels = 120;
-  constexpr double kSeconds = 20;
+  constexpr double kSeconds = 12;
   fs::create_directories(folder);
   for (const char* model : {"sphere", "slab", "figurine", "knot", "bunny_filled", "spot", "nefertiti"}) {
     if (!study.has(model)) continue;

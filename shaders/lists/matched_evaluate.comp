@@ -23,11 +23,15 @@ void main() {
   uint code = sites[uint(list * listLength) + place];
   ivec2 site = siteOf(code);
   int number = receiverOf(code);
-  // Another program listed it: a compiler may round the decision which samples share a receiver otherwise there.
+  ivec2 at = level > 0 ? site : ivec2(site.x, (site.y - firstRow) * 4 + number);
   Receivers all = loadReceivers(firstSample(site));
-  number = min(number, max(all.count, 1) - 1);
+  // Another program listed it: a compiler may round the decision which samples share a receiver otherwise there. Then the
+  // first stands for all.
+  if (number >= all.count) {
+    imageStore(evaluated, at, vec4(0.0));
+    return;
+  }
   Receiver r = all.first;
   if (number > 0) r = nextReceiver(all, number);
-  ivec2 at = level > 0 ? site : ivec2(site.x, (site.y - firstRow) * 4 + number);
   imageStore(evaluated, at, vec4(shownAs(r) * litRadiosity(view, r), 0.0));
 }

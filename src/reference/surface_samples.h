@@ -12,7 +12,7 @@ namespace lychnite {
 /// A point of an object's surface. Scene units.
 struct SurfacePoint {
   glm::vec3 position{0};
-  glm::vec3 normal{0, 0, 1};  ///< unit, of the triangle, outwards
+  glm::vec3 normal{0, 0, 1};  ///< unit, outwards
 };
 
 /// Area-uniform, evenly spread points on an object's true surface.

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
-#include <limits>
 
 #include "reference/picture.h"
 #include "volume/interruptible.h"
@@ -34,21 +33,23 @@ std::vector<Lanes> inOneRow(const World& world, const std::vector<std::vector<La
   return all;
 }
 
-/// What leaves where it enters, in detail finer than nodes: each spot's part is what enters there times the
-/// body's share. `used` spots of a pixel stand for all.
+/// What leaves where it enters, in detail finer than nodes.
 struct FineLight {
   glm::vec3 radiosity{0}, multiple{0};
 };
 
+/// Each spot's part is what enters there times the body's share. For a preview of a pixel that sees one
+/// object one spot near the middle stands for all.
 FineLight fineLight(const RayScene& rays, const NodeLight& light, std::span<const View::Spot> spots,
-                    size_t used) {
+                    bool preview) {
   FineLight result;
   if (spots.empty()) return result;
-  used = std::min(used, spots.size());
+  const auto alike = [&](const View::Spot& spot) { return spot.object == spots.front().object; };
+  const bool one = preview && std::all_of(spots.begin(), spots.end(), alike);
+  const auto looks = one ? spots.subspan(spots.size() * 5 / 8, 1) : spots;
   glm::vec2 all(0), seen(0);  // of the weights
   for (const View::Spot& spot : spots) all += glm::vec2(spot.radiosity, spot.radiance);
-  for (size_t i = 0; i < used; ++i) {
-    const View::Spot& spot = spots[i * spots.size() / used];
+  for (const View::Spot& spot : looks) {
     seen += glm::vec2(spot.radiosity, spot.radiance);
     const glm::vec3 &a = light.fineAll[spot.object], &m = light.fineMultiple[spot.object];
     if (a == glm::vec3(0) && m == glm::vec3(0)) continue;
@@ -73,9 +74,8 @@ PixelLight lightPixels(const RayScene& rays, const World& world, const NodeLight
       for (const View::Share& share : shares) sum += share.*part * flux[share.node];
     return glm::vec3(sum[0], sum[1], sum[2]);
   };
-  const size_t used = preview ? 1 : std::numeric_limits<size_t>::max();
   view.forPixels([&](const View::Pixel& pixel) {
-    const FineLight fine = fineLight(rays, light, pixel.spots, used);
+    const FineLight fine = fineLight(rays, light, pixel.spots, preview);
     const glm::vec3 none(0);
     result.radiosity[pixel.index] =
         glm::max(sumUp(pixel.shares, all, &View::Share::radiosity) + fine.radiosity, none);

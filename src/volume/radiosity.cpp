@@ -213,7 +213,8 @@ glm::vec3 fineShare(const Smoother::Response& response, double finest) {
     all += weight;
   }
   glm::vec3 share(sum / all);
-  for (int c = 0; c < 3; ++c) share[c] = std::min(share[c], float(response(finest, c)));
+  for (int c = 0; c < 3; ++c)
+    share[c] = std::clamp(float(response(finest, c)), 0.0f, std::max(0.0f, share[c]));
   return std::max({share.x, share.y, share.z}) < kLeastFine ? glm::vec3(0) : share;
 }
 

@@ -3,7 +3,10 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "lychnite/optics/fresnel.h"
 #include "volume/interruptible.h"
@@ -14,25 +17,31 @@ namespace {
 
 constexpr size_t kBlock = 1024;            // pixels
 constexpr size_t kMostBytes = 512u << 20;  // of what is kept: some 1.2 million pixels
-constexpr double kSameCamera = 1e-9;       // lengths over the scene's: what sizes round to
+// Least cosine of a facet's normal to its corners': below it is left as it is, above it is smooth.
+constexpr float kCreased = 0.72f, kSmooth = 0.85f;
+constexpr double kSameCamera = 1e-9;  // lengths over the scene's: what sizes round to
 
 /// A hit moved onto the smooth surface that the interpolated normals tell of, or left where it is if that
-/// lies inside: from there neighbouring facets cast no shadow [Hanika2021].
-glm::vec3 onSmoothSurface(const RayMesh& mesh, const RayHit& hit) {
+/// lies inside: from there neighbouring facets cast no shadow [Hanika2021]. Facets whose corners' normals are
+/// far from their own are taken as they are: a box is not round, whatever normals its file has.
+SurfacePoint onSmoothSurface(const RayMesh& mesh, const RayHit& hit, const glm::vec3& normal) {
   const glm::uvec3 corners = (*mesh.triangles)[hit.triangle];
   const glm::vec3 weights(1 - hit.u - hit.v, hit.u, hit.v);
-  glm::vec3 result = hit.position;
+  glm::vec3 move(0);
+  float agreement = 1;
   for (int c = 0; c < 3; ++c) {
-    const glm::vec3& normal = mesh.normals[corners[c]];
-    const float below = glm::dot(mesh.positions[corners[c]] - hit.position, normal);
-    if (below > 0) result += weights[c] * below * normal;
+    const glm::vec3& there = mesh.normals[corners[c]];
+    const float below = glm::dot(mesh.positions[corners[c]] - hit.position, there);
+    if (below > 0) move += weights[c] * below * there;
+    agreement = std::fmin(agreement, glm::dot(there, hit.normal));
   }
-  return result;
+  const float smooth = glm::smoothstep(kCreased, kSmooth, agreement);
+  return {hit.position + smooth * move, glm::normalize(glm::mix(hit.normal, normal, smooth))};
 }
 
-/// Finds the shares of pixels. Where a surface turns away from the eye or ends, or pixels are larger than
-/// voxels, a pixel spans much of it: a raster of rays stands for it there, so that the mean is over the
-/// pixel, as that of the walk's splats.
+/// Finds the shares and spots of pixels. Where a surface turns away from the eye or ends, or pixels are
+/// larger than voxels, a pixel spans much of it: a raster of rays stands for it there, so that the mean is
+/// over the pixel, as that of the walk's splats.
 class Looker {
  public:
   Looker(const RayScene& rays, const World& world, const CameraFrame& camera,
@@ -101,7 +110,7 @@ class Looker {
     const double cosO = glm::clamp(double(glm::dot(normal, view)), 0.0, 1.0);
     const auto lobe = float(exitLobe(cosO, double(body.medium.eta)));
     spots_.push_back(
-        {{onSmoothSurface(rays_.mesh(hit.object), hit), normal}, uint32_t(object), weight, weight * lobe});
+        {onSmoothSurface(rays_.mesh(hit.object), hit, normal), uint32_t(object), weight, weight * lobe});
     for (const Gather::Weight& w : weights_)
       shares_.push_back({firstNode_[object] + w.node, weight * w.weight, weight * w.weight * lobe});
   }
@@ -155,6 +164,11 @@ View::View(const RayScene& rays, const World& world, int width, int height)
     if (body) nodes += uint32_t(body->shape->surface.nodes().size());
   }
   const std::vector<Receiver>& all = receivers_.receivers;  // those of a pixel follow each other
+  nearest_.assign(world.bodies.size(), std::numeric_limits<float>::infinity());
+  for (const Receiver& receiver : all) {
+    float& nearest = nearest_[size_t(receiver.hit.object)];
+    nearest = std::fmin(nearest, receiver.depth);
+  }
   for (size_t i = 0; i < all.size(); ++i)
     if (i == 0 || all[i].pixel != all[i - 1].pixel) first_.push_back(i);
   blocks_.resize((first_.size() + kBlock - 1) / kBlock);

@@ -22,6 +22,8 @@ class View {
   /// Whether it is what that camera sees of these bodies, whose shapes and places are those it was made for.
   bool isOf(const RayScene& rays, const World& world, int width, int height) const;
   const CameraReceivers& receivers() const { return receivers_; }
+  /// Of what it sees of an object, the least distance along its axis; infinite where it sees nothing.
+  float nearest(size_t object) const { return nearest_[object]; }
   /// Of the scene's media as they are now.
   const SingleLight& singleLight();
 
@@ -64,6 +66,7 @@ class View {
   std::vector<float> etas_;
   CameraReceivers receivers_;
   std::vector<uint32_t> firstNode_;  ///< of each body
+  std::vector<float> nearest_;       ///< of each object
   std::vector<size_t> first_;        ///< receiver of each pixel that sees something, and the end
   std::vector<Block> blocks_;        ///< empty ones are not kept
   std::atomic<size_t> kept_{0};      ///< bytes

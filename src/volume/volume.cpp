@@ -89,7 +89,7 @@ struct VolumeSolver::Impl {
   NodeEstimate estimate(size_t object) const;
   FirstOrder firstOrder(size_t object, const std::vector<Lanes>& entering) const;
   NodeFlux flux(int object, Orders orders) const;
-  glm::vec3 takeFine(size_t object, Orders orders, const CameraFrame& camera, std::vector<Lanes>& flux) const;
+  glm::vec3 takeFine(size_t object, Orders orders, std::vector<Lanes>& flux) const;  ///< as the view sees it
   void refine(bool last, const Progress& progress);
   View& viewOf(int width, int height);
   const std::vector<glm::vec3>& singleOf(uint64_t seed, Detail detail, const Progress& progress);
@@ -219,19 +219,23 @@ NodeFlux VolumeSolver::Impl::flux(int object, Orders orders) const {
 }
 
 /// Takes from a body's flux what pixels add themselves where nodes are too coarse: a share of what enters.
-glm::vec3 VolumeSolver::Impl::takeFine(size_t object, Orders orders, const CameraFrame& camera,
-                                       std::vector<Lanes>& flux) const {
+glm::vec3 VolumeSolver::Impl::takeFine(size_t object, Orders orders, std::vector<Lanes>& flux) const {
   const Body& body = *world.bodies[object];
   const double h = body.shape->grid.side();
-  const std::vector<Lanes> entering = estimate(object).entering;
-  FirstOrder first;
-  if (orders == Orders::kMultiple) first = firstOrder(object, entering);
-  const double pixel = 2 * camera.tanHalfFovY / camera.height *
-                       glm::distance(camera.position, glm::dvec3(body.position)) / double(body.size);
-  const Smoother::Response response = [&](double q, int c) {
-    return body.system.medium().channel[c].response(q / h) - (first.response ? first.response(q, c) : 0);
+  const CameraFrame camera = rays->camera(view->receivers().width, view->receivers().height);
+  const double pixel =
+      2 * camera.tanHalfFovY / camera.height * double(view->nearest(object)) / double(body.size);
+  const double finest = std::numbers::pi * h / pixel;
+  const Smoother::Response all = [&](double q, int c) {
+    return body.system.medium().channel[c].response(q / h);
   };
-  const glm::vec3 share = fineShare(response, std::numbers::pi * h / pixel);
+  glm::vec3 share = fineShare(all, finest);
+  if (share == glm::vec3(0)) return share;
+  const std::vector<Lanes> entering = estimate(object).entering;
+  if (orders == Orders::kMultiple) {
+    const FirstOrder first = firstOrder(object, entering);
+    share = fineShare([&](double q, int c) { return all(q, c) - first.response(q, c); }, finest);
+  }
   addScaled(entering, Lanes{-share.x, -share.y, -share.z, 0}, flux);
   return share;
 }
@@ -417,7 +421,7 @@ const std::vector<glm::vec3>& VolumeSolver::Impl::singleOf(uint64_t seed, Detail
 
 Image VolumeSolver::picture(const RenderSettings& settings, const Progress& progress, Detail detail) const {
   const Interruptible inside(progress, {"volume: picture", 0, ""});
-  const CameraFrame camera = impl_->rays->camera(settings.width, settings.height);
+  View& seen = impl_->viewOf(settings.width, settings.height);
   NodeLight light;
   for (size_t i = 0; i < impl_->world.bodies.size(); ++i) {
     for (auto* part : {&light.all, &light.multiple, &light.error}) part->emplace_back();
@@ -426,20 +430,19 @@ Image VolumeSolver::picture(const RenderSettings& settings, const Progress& prog
     const bool error = settings.wants("stderr");
     if (settings.wants("radiosity")) {
       light.all.back() = impl_->flux(int(i), Orders::kAll).flux;
-      light.fineAll.back() = impl_->takeFine(i, Orders::kAll, camera, light.all.back());
+      light.fineAll.back() = impl_->takeFine(i, Orders::kAll, light.all.back());
     }
     if (!settings.components.multiple && !error) continue;
     NodeFlux multiple = impl_->flux(int(i), Orders::kMultiple);
     light.multiple.back() = std::move(multiple.flux);
-    light.fineMultiple.back() = impl_->takeFine(i, Orders::kMultiple, camera, light.multiple.back());
+    light.fineMultiple.back() = impl_->takeFine(i, Orders::kMultiple, light.multiple.back());
     light.error.back() = std::move(multiple.variance);
     for (Lanes& e : light.error.back())
       for (int c = 0; c < 3; ++c) e[c] = std::sqrt(e[c]);
   }
-  View& view = impl_->viewOf(settings.width, settings.height);
   const std::vector<glm::vec3> none;
   const auto& single = settings.components.single ? impl_->singleOf(settings.seed, detail, progress) : none;
-  return volumePicture(*impl_->rays, impl_->world, light, view, single, settings, detail == Detail::kPreview,
+  return volumePicture(*impl_->rays, impl_->world, light, seen, single, settings, detail == Detail::kPreview,
                        progress);
 }
 

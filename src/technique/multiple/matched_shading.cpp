@@ -67,9 +67,6 @@ void MultipleMatchedShading::resize(const CameraFrame& camera) {
             rows = std::min(height, std::max(1, kMostPixels / width));
   if (pixels_ && pixels_->listed.width() == width && pixels_->listed.height() == height) return;
   pixels_.reset();
-  pixels_.emplace(Pixels{texture("matched, listed", gpu::Format::kR32f, width, height),
-                         texture("matched, evaluated", gpu::Format::kRgba32f, width, 4 * rows),
-                         lists(4 * width * rows)});
   for (int l = 1; l < kLevels; ++l) {
     // A last row or column that is no whole block has no site; its pixels find fewer neighbours.
     const int w = std::max(1, width >> l), h = std::max(1, height >> l);
@@ -80,6 +77,10 @@ void MultipleMatchedShading::resize(const CameraFrame& camera) {
     levels_[size_t(l) - 1].emplace(Level{std::move(value), std::move(surface), std::move(framebuffer),
                                          lists(w * std::clamp(4 * kMostPixels / w, 1, h))});
   }
+  // Last: it tells that all are there.
+  pixels_.emplace(Pixels{texture("matched, listed", gpu::Format::kR32f, width, height),
+                         texture("matched, evaluated", gpu::Format::kRgba32f, width, 4 * rows),
+                         lists(4 * width * rows)});
 }
 
 void MultipleMatchedShading::setUniforms(gpu::Program& program, const ShadingInputs& in, size_t object,

@@ -177,6 +177,7 @@ TEST(VolumePicture, ShadowsOfLargeObjectsAreSharpAndOfSmallOnesAreNot) {
     // From the lit half to the dark one: the last bright pixel and the first dark one after it.
     const auto lit = std::find_if(row.rbegin(), row.rend(), [](double v) { return v > 0.8; }).base();
     const auto dark = std::find_if(lit, row.end(), [](double v) { return v < 0.2; });
+    EXPECT_NEAR(double(lit - row.begin()), 96, 8);  // on the plate, whose silhouette is farther out
     return int(dark - lit) + 1;
   };
   for (const auto detail : {VolumeSolver::Detail::kFull, VolumeSolver::Detail::kPreview})
@@ -186,6 +187,38 @@ TEST(VolumePicture, ShadowsOfLargeObjectsAreSharpAndOfSmallOnesAreNot) {
   double step = 0;  // from the middle of the lit half on
   for (size_t x = 64; x < small.size(); ++x) step = std::max(step, small[x - 1] - small[x]);
   EXPECT_LT(step, 0.25);
+}
+
+/// A box of two triangles a side with one normal a corner, the mean of three sides'.
+std::shared_ptr<const Mesh> boxOfMeanNormals() {
+  auto mesh = std::make_shared<Mesh>();
+  for (int i = 0; i < 8; ++i) {
+    mesh->positions.emplace_back(i & 1 ? 0.5f : -0.5f, i & 2 ? 0.5f : -0.5f, i & 4 ? 0.5f : -0.5f);
+    mesh->normals.push_back(glm::normalize(mesh->positions.back()));
+  }
+  mesh->triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  return mesh;
+}
+
+TEST(VolumePicture, ABoxIsFlatWhateverNormalsItsFileHas) {
+  Scene scene;
+  scene.objects.push_back({.mesh = boxOfMeanNormals(), .size = 20000});
+  scene.objects[0].material.medium = findMaterial("marble", "").coefficients;
+  scene.lights.push_back(ParallelLight{.azimuth = 20, .elevation = 20});
+  scene.camera = OrbitCamera{.azimuth = 0, .elevation = 0};
+  VolumeSolver solver;
+  solver.update(scene, kQuick);
+  const Image image = solver.picture(settingsOf(96));
+  double least = 1e30, most = 0;
+  for (size_t i = 0; i < image.pixelCount(); ++i) {
+    const size_t x = i % 96, y = i / 96;
+    if (x < 36 || x > 60 || y < 36 || y > 60) continue;
+    least = std::min(least, double(image.rgb(i, "radiosity").g));
+    most = std::max(most, double(image.rgb(i, "radiosity").g));
+  }
+  EXPECT_GT(least, 0);
+  EXPECT_LT(most, 1.02 * least);
 }
 
 }  // namespace

@@ -30,6 +30,12 @@ TEST(FineShare, FallsAsTheResponseWidens) {
   EXPECT_NEAR(fineShare([](double q, int) { return 0.7 * std::exp(-0.001 * q); }, 10).r, 0.7, 0.01);
 }
 
+TEST(FineShare, IsNotNegativeInAnyChannel) {
+  const glm::vec3 share = fineShare([](double, int c) { return c == 1 ? -0.2 : 0.3; }, 1);
+  EXPECT_NEAR(share.r, 0.3, 1e-6);
+  EXPECT_EQ(share.g, 0);
+}
+
 TEST(FineShare, IsNoSharperThanWhatThePictureShows) {
   const auto response = [](double q, int) { return 0.7 * std::exp(-0.3 * q); };
   for (const double finest : {4.0, 8.0, 15.0})
