@@ -275,8 +275,8 @@ std::vector<Image> picturesOf(Study& study, const Cell& cell, const std::vector<
   std::vector<float> light;
   for (size_t i = 0; i < walk.pixelCount(); ++i)
     if (walk.channel("A")[i] == 1) light.push_back(pictures[0].rgb(i).y);
-  std::nth_element(light.begin(), light.begin() + ptrdiff_t(light.size() * 95 / 100), light.end());
-  const double exposure = std::log2(0.8 / std::max(double(light[light.size() * 95 / 100]), 1e-9));
+  std::nth_element(light.begin(), light.begin() + ptrdiff_t(light.size() * 98 / 100), light.end());
+  const double exposure = std::log2(0.8 / std::max(double(light[light.size() * 98 / 100]), 1e-9));
   for (Image& picture : pictures)
     for (size_t i = 0; i < picture.pixelCount(); ++i)
       picture.setRgb(i, picture.rgb(i) * float(std::exp2(exposure)));
