@@ -150,7 +150,7 @@ void Beamer::enterLayer(Beam& beam, const Surface::Sample& sample, float cosine,
   }
   tally_.absorbed += Rgb(beam.flux * (1.0f - pass) - scattered);
   tally_.absorbed += Rgb(scattered - leaving - staying);
-  leave(sample.node, Tracer::Record::kLater, leaving);
+  leave(sample.node, Tracer::Record::kLayer, leaving);
   deposit(sample.cell, staying);
   beam.flux *= pass;
   beam.position += way * beam.direction;
@@ -201,7 +201,7 @@ void Beamer::collide(const glm::vec3& p, const glm::vec3& flux) {
     staying[c] = scattered[c] * float(diffusion.staying(double(place.depth), double(sample.depth)));
   }
   tally_.absorbed += Rgb(scattered - leaving - staying);
-  leave(sample.node, Tracer::Record::kLater, leaving);
+  leave(sample.node, Tracer::Record::kLayer, leaving);
   deposit(place.cell, staying);
 }
 
@@ -217,7 +217,7 @@ void Beamer::deposit(uint32_t cell, const glm::vec3& flux) {
 
 void Beamer::leave(uint32_t node, Tracer::Record::Kind kind, const glm::vec3& flux) {
   if (!(largest(flux) > 0)) return;
-  if (kind == Tracer::Record::kLater) tally_.left += Rgb(flux);
+  if (kind == Tracer::Record::kLayer) tally_.left += Rgb(flux);
   records_.push_back({node, uint16_t(object_), kind, flux});
 }
 

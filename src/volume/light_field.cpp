@@ -51,12 +51,12 @@ void LightSolver::beam(LightField& field) {
     system.exits(field.phiBeam[i], field.beam[i]);
     lastFlights_[i]->gather(*world_.bodies[i], field.phiBeam[i], deposits.source, field.beam[i]);
     field.absorbed += system.absorbed(field.phiBeam[i]);
-    for (size_t n = 0; n < field.beam[i].size(); ++n) field.beam[i][n] += deposits.later[n];
+    for (size_t n = 0; n < field.beam[i].size(); ++n) field.beam[i][n] += deposits.layer[n];
     field.beamFirst[i] = std::move(deposits.first);
     deposits = {};
   }
   stats_.solveMs += since(solving);
-  exchangeLight(field);
+  field.beamAgain = lightThatReturns(field.beam, kFewerReturn);
 }
 
 void LightSolver::trace(LightField& field) {
@@ -111,10 +111,12 @@ void LightSolver::solve(LightField& field) {
     field.all[half].assign(bodies, {});
     field.first[half].assign(bodies, {});
   }
+  LightField::Fluxes scattered(bodies);  // that nobody followed
   for (size_t i = 0; i < bodies; ++i) {
     if (!world_.bodies[i]) continue;
     const DiffusionSystem& system = world_.bodies[i]->system;
     solveHalves(field, i);
+    scattered[i].assign(world_.bodies[i]->shape->surface.nodes().size(), Lanes{0, 0, 0, 0});
     for (int half : {0, 1}) {
       const Deposits& deposits = field.deposits[half][i];
       std::vector<Lanes> Q = deposits.source;
@@ -124,40 +126,35 @@ void LightSolver::solve(LightField& field) {
       system.exits(field.phi[half][i], all);
       lastFlights_[i]->gather(*world_.bodies[i], field.phi[half][i], Q, all);
       for (size_t n = 0; n < first.size(); ++n) {
+        all[n] += deposits.layer[n] * each;
+        scattered[i][n] += 0.5f * all[n];
         first[n] *= each;
         all[n] += first[n] + deposits.later[n] * each;
       }
     }
   }
-  field.solved = field.passes;
   stats_.solveMs += since(start);
-  exchangeLight(field);
-}
-
-/// Light that leaves and meets a surface again. It is little light: made anew when the passes have doubled.
-void LightSolver::exchangeLight(LightField& field) {
-  field.again.resize(world_.bodies.size());
-  if (exchange_.empty() || (field.passes > 0 && field.passes < 2 * field.exchangedAt)) return;
-  const auto start = std::chrono::steady_clock::now();
-  field.again = lightThatReturns(field);
-  field.exchangedAt = field.passes;
-  stats_.exchangeMs += since(start);
-}
-
-/// Again and again by tracing and a solve while there is much left of it; what would go on the same way then
-/// is taken as a geometric series.
-LightField::Fluxes LightSolver::lightThatReturns(LightField& field) {
-  LightField::Fluxes leaving = field.beam, result(leaving.size());
-  for (size_t i = 0; i < leaving.size(); ++i) {
-    result[i].assign(leaving[i].size(), Lanes{0, 0, 0, 0});
-    if (field.passes > 0)
-      for (size_t n = 0; n < leaving[i].size(); ++n)
-        leaving[i][n] = 0.5f * (field.all[0][i][n] + field.all[1][i][n]);
+  // It is little light: made anew when the passes have doubled.
+  if (field.solved == 0) field.beamAgain = lightThatReturns(field.beam, 1);
+  if (field.solved == 0 || field.passes >= 2 * field.exchangedAt) {
+    field.again = lightThatReturns(std::move(scattered), 1);
+    field.exchangedAt = field.passes;
   }
+  field.solved = field.passes;
+}
+
+/// Light that leaves, about the normal as scattered light does, meets a surface and leaves again: again and
+/// again by tracing and a solve while there is much left of it; what would go on the same way then is taken
+/// as a geometric series. Photons follow their own light; what diffusion sends out is left for the next round.
+LightField::Fluxes LightSolver::lightThatReturns(LightField::Fluxes leaving, int oneOf) {
+  const auto start = std::chrono::steady_clock::now();
+  LightField::Fluxes result(leaving.size());
+  for (size_t i = 0; i < leaving.size(); ++i) result[i].assign(leaving[i].size(), Lanes{0, 0, 0, 0});
   const Lanes first = sumOf(leaving);
-  for (int round = 0; round < kMostReturns; ++round) {
+  for (int round = 0; !exchange_.empty() && round < kMostReturns; ++round) {
     const Lanes before = sumOf(leaving);
-    leaving = returnedOnce(field, leaving, round);
+    Returned returned = returnedOnce(leaving, round, oneOf);
+    leaving = std::move(returned.scattered);
     const Lanes after = sumOf(leaving);
     float most = 0;
     Lanes series{1, 1, 1, 1};
@@ -167,29 +164,30 @@ LightField::Fluxes LightSolver::lightThatReturns(LightField& field) {
     }
     const bool last = most < kLittle || round + 1 == kMostReturns;
     if (!last) series = Lanes{1, 1, 1, 1};
-    for (size_t i = 0; i < leaving.size(); ++i)
-      for (size_t n = 0; n < leaving[i].size(); ++n) result[i][n] += series * leaving[i][n];
+    for (size_t i = 0; i < result.size(); ++i)
+      for (size_t n = 0; n < result[i].size(); ++n) result[i][n] += series * returned.all[i][n];
     if (last) break;
   }
+  stats_.exchangeMs += since(start);
   return result;
 }
 
 /// What leaves of light that left and met a surface.
-LightField::Fluxes LightSolver::returnedOnce(LightField& field, const LightField::Fluxes& leaving,
-                                             int round) {
+LightSolver::Returned LightSolver::returnedOnce(const LightField::Fluxes& leaving, int round, int oneOf) {
   Tally tally;
   const int collisions = std::min(settings_.collisions, kExchangeCollisions);
-  const int oneOf = field.passes == 0 ? kFewerReturn : 1;
   const std::vector<Deposits> back =
       exchange_.send(world_, leaving, collisions, settings_.seed, round, oneOf, tally);
-  LightField::Fluxes result(leaving.size());
+  Returned result{LightField::Fluxes(leaving.size()), LightField::Fluxes(leaving.size())};
   for (size_t i = 0; i < back.size(); ++i) {
     if (!world_.bodies[i]) continue;
     const DiffusionSystem& system = world_.bodies[i]->system;
     std::vector<Lanes> phi;
     stats_.iterations += system.solve(back[i].source, phi, std::max(0.03, settings_.tolerance)).iterations;
-    system.exits(phi, result[i]);
-    for (size_t n = 0; n < result[i].size(); ++n) result[i][n] += back[i].later[n];
+    system.exits(phi, result.scattered[i]);
+    for (size_t n = 0; n < result.scattered[i].size(); ++n) result.scattered[i][n] += back[i].layer[n];
+    result.all[i] = result.scattered[i];
+    for (size_t n = 0; n < result.all[i].size(); ++n) result.all[i][n] += back[i].first[n] + back[i].later[n];
   }
   return result;
 }

@@ -22,9 +22,9 @@ struct LightField {
   Tally tally;
   Fluxes phi[2];
   Fluxes all[2], first[2];
-  // Light that leaves and enters again.
-  Fluxes again;
-  int exchangedAt = 0;  ///< passes
+  // Light that leaves, meets a surface and leaves again, as far as photons have not followed it themselves.
+  Fluxes beamAgain, again;  ///< of what leaves by beams; by photons and diffusion
+  int exchangedAt = 0;      ///< passes, of `again`
   Rgb absorbed{0};
 
   /// Of all that the light did: by photons as soon as there are any, per pass.
@@ -51,9 +51,11 @@ class LightSolver {
 
  private:
   void solveHalves(LightField& field, size_t body);
-  void exchangeLight(LightField& field);
-  LightField::Fluxes lightThatReturns(LightField& field);
-  LightField::Fluxes returnedOnce(LightField& field, const LightField::Fluxes& leaving, int round);
+  LightField::Fluxes lightThatReturns(LightField::Fluxes leaving, int oneOf);
+  struct Returned {
+    LightField::Fluxes all, scattered;  ///< the latter is not followed yet
+  };
+  Returned returnedOnce(const LightField::Fluxes& leaving, int round, int oneOf);
 
   const World& world_;
   const std::vector<Emission>& emission_;

@@ -21,6 +21,7 @@ constexpr float kMostLonger = 4;     // times as many collisions where g is near
 constexpr float kNegligible = 16;    // mean free paths that nothing passes
 constexpr float kBelowOne = 0.99999994f;
 constexpr float kBranchChance = 4;  // of light that leaves unscattered, per share of the photon
+constexpr float kReturnChance = 1;  // of light that leaves scattered, to be followed
 
 float least(const glm::vec3& v) {
   return std::fmin(v.x, std::fmin(v.y, v.z));
@@ -51,16 +52,21 @@ void normalise(Photon& photon) {
 Deposits::Deposits(const Body& body)
     : first(body.shape->surface.nodes().size(), Lanes{0, 0, 0, 0}),
       later(first),
+      layer(first),
       source(body.shape->grid.size(), Lanes{0, 0, 0, 0}) {}
 
 Deposits& Deposits::operator+=(const Deposits& other) {
-  for (size_t i = 0; i < first.size(); ++i) first[i] += other.first[i], later[i] += other.later[i];
+  for (size_t i = 0; i < first.size(); ++i) {
+    first[i] += other.first[i];
+    later[i] += other.later[i];
+    layer[i] += other.layer[i];
+  }
   for (size_t i = 0; i < source.size(); ++i) source[i] += other.source[i];
   return *this;
 }
 
 void Deposits::scale(float factor) {
-  for (auto* part : {&first, &later, &source})
+  for (auto* part : {&first, &later, &layer, &source})
     for (Lanes& l : *part) l *= factor;
 }
 
@@ -83,6 +89,7 @@ void Tracer::arrive(const RayHit& hit, const glm::vec3& direction, const glm::ve
   Photon photon;
   photon.direction = direction;
   photon.flux = flux;
+  photon.arrived = largest(flux);
   if (const auto& in = world_.bodies[size_t(hit.object)]) {
     photon.channel = drawn < in->chances.x ? 0 : drawn < in->chances.x + in->chances.y ? 1 : 2;
     photon.density = 3.0f * in->chances;
@@ -253,10 +260,13 @@ void Tracer::leave(const Photon& photon, const RayHit& hit, const glm::vec3& flu
     const uint32_t node = surface.samples()[surface.sampleAt(hit.triangle, hit.u, hit.v)].node;
     records_.push_back(
         {node, uint16_t(photon.object), photon.order == 1 ? Record::kFirst : Record::kLater, flux});
-    return;
+    if (!world_.returns) return;
+  } else {
+    tally_.unscattered += Rgb(flux);
   }
-  tally_.unscattered += Rgb(flux);
-  const float chance = std::fmin(1.0f, kBranchChance * share);
+  // So that what is followed weighs as much as the photon did at first.
+  const float chance = std::fmin(1.0f, photon.order > 0 ? kReturnChance * largest(flux) / photon.arrived
+                                                        : kBranchChance * share);
   if (photon.branch >= kMostBranches || rng_.uniform() >= chance) return;
   const float cosI = std::fmin(1.0f, glm::dot(photon.direction, hit.normal)),
               eta = 1 / body(photon).medium.eta;
@@ -265,6 +275,7 @@ void Tracer::leave(const Photon& photon, const RayHit& hit, const glm::vec3& flu
   out.direction =
       transport::refracted(photon.direction, -hit.normal, eta, cosI, transport::fresnel(cosI, eta).cosT);
   out.position = offPoint(hit, out.direction);
+  if (out.order > 0) out.order = std::max(out.order, 2);  // where it enters again it is not the first
   ++out.branch;
   waiting_.push_back(out);
 }
@@ -303,7 +314,7 @@ void Tracer::handOver(const Photon& photon) {
     }
     if (largest(leaving) > 0)
       records_.push_back(
-          {surface.samples()[place.sample].node, uint16_t(photon.object), Record::kLater, leaving});
+          {surface.samples()[place.sample].node, uint16_t(photon.object), Record::kLayer, leaving});
   }
   tally_.left += Rgb(leaving);
   tally_.absorbed += Rgb(photon.flux - leaving - staying);
@@ -336,6 +347,7 @@ void collect(const std::vector<Tracer::Record>& records, std::vector<Deposits>& 
   for (const Tracer::Record& r : records) {
     Deposits& to = deposits[r.object];
     (r.kind == Tracer::Record::kSource  ? to.source
+     : r.kind == Tracer::Record::kLayer ? to.layer
      : r.kind == Tracer::Record::kFirst ? to.first
                                         : to.later)[r.index] += lanes(r.flux);
   }

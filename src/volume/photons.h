@@ -16,7 +16,8 @@ namespace lychnite::volume {
 /// Where light ends that was traced, in one body: flux per node and per cell. Scene units.
 struct Deposits {
   std::vector<Lanes> first;   ///< leaves at each node after one collision
-  std::vector<Lanes> later;   ///< after two or more, what the exit layer sends out at once included
+  std::vector<Lanes> later;   ///< after two or more
+  std::vector<Lanes> layer;   ///< is sent out at once by the exit layer, in no direction that is known
   std::vector<Lanes> source;  ///< goes on in each cell as a source of the diffusion equation
   Deposits() = default;
   explicit Deposits(const Body& body);
@@ -27,7 +28,7 @@ struct Deposits {
 /// Sums of flux: where traced light went.
 struct Tally {
   Rgb arrived{0};      ///< at surfaces, straight from the light
-  Rgb entered{0};      ///< of it, and again after leaving unscattered
+  Rgb entered{0};      ///< of it, and again after leaving
   Rgb unscattered{0};  ///< left the body it was in without a collision
   Rgb left{0};         ///< with one collision or more, exit layer included
   Rgb absorbed{0};     ///< at collisions and in the exit layer
@@ -41,6 +42,7 @@ struct Tally {
 struct World {
   const RayScene* rays = nullptr;
   std::vector<std::unique_ptr<Body>> bodies;  ///< one an object; null for opaque ones
+  bool returns = true;                        ///< light that leaves can meet a surface again
 };
 
 /// What a photon carries, see transport::PathWeight, of which this is the form for forced collisions: flights
@@ -48,6 +50,7 @@ struct World {
 struct Photon {
   glm::vec3 position{0}, direction{0};
   glm::vec3 flux{0}, density{1};
+  float arrived = 0;                                         ///< largest flux that it began with
   float descent = 1;                                         ///< cosine of the way in to the normal
   float thickness = std::numeric_limits<float>::infinity();  ///< of the object where it came in, scene units
   int channel = 0;
@@ -61,7 +64,7 @@ struct Photon {
 class Tracer {
  public:
   struct Record {
-    enum Kind : uint8_t { kFirst, kLater, kSource };
+    enum Kind : uint8_t { kFirst, kLater, kLayer, kSource };
     uint32_t index;
     uint16_t object;
     Kind kind;

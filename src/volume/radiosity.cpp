@@ -15,7 +15,7 @@ namespace {
 // Standard deviations of the smoothing, voxels. The least falls with the sixth root of the photons' density,
 // from kWidest to kLeastWidth.
 constexpr size_t kWidths = 4;
-constexpr double kLeastWidth = 0.5, kWidest = 6, kWidthOfOne = 1.9;
+constexpr double kLeastWidth = 0.5, kWidest = 6, kWidthOfOne = 1;
 constexpr double kPhotonsOfOne = 8;  // per voxel's face, where it is kWidthOfOne
 constexpr double kBeamWidth = 1.1;   // of what has no noise: hides the cells
 constexpr double kAgainWidth = 2.5;
@@ -172,7 +172,9 @@ NodeFlux cleaned(const Smoother& smoother, const Surface& surface, const NodeEst
     if (first) result.flux[i] -= base[1][i];
   }
   if (estimate.half[0].empty()) return result;
-  const Residuals residuals = residualsOf(smoother, estimate, base[0]);
+  Field known0 = base[0];
+  for (size_t i = 0; i < known0.size(); ++i) known0[i] += base.back()[i];
+  const Residuals residuals = residualsOf(smoother, estimate, known0);
   const Field share =
       choose(smoother, surface, sumsAround(surface.grid(), surface, squareErrors(surface, residuals)));
   const auto& nodes = surface.nodes();

@@ -148,6 +148,7 @@ bool VolumeSolver::Impl::makeBodies(const Scene& scene, const VolumeSettings& ne
     if (world.bodies[i] && (points || !kept || lastFlights[i]->eta() != world.bodies[i]->medium.eta))
       lastFlights[i] = std::make_unique<LastFlight>(world, i);
   if (!kept) exchange = std::make_unique<Exchange>(world);
+  world.returns = !exchange->empty();
   return true;
 }
 
@@ -176,9 +177,12 @@ NodeEstimate VolumeSolver::Impl::estimate(size_t object) const {
   if (passes() > 0) result.half[0] = result.half[1] = none;
   forLights(object, [&](const LightField& field, const Lanes& p) {
     addScaled(field.beam[object], p, result.beam);
-    addScaled(field.again[object], p, result.again);
-    for (int half : {0, 1})
-      if (passes() > 0) addScaled(field.all[half][object], p, result.half[half]);
+    addScaled(field.beamAgain[object], p, result.again);
+    for (int half : {0, 1}) {
+      if (passes() < 1) continue;
+      addScaled(field.all[half][object], p, result.half[half]);
+      addScaled(field.again[object], p, result.half[half]);
+    }
     for (size_t n = 0; n < none.size(); ++n) result.entering[n] += p * field.entering[object].flux[n];
   });
   const double h = body.shape->grid.side();
