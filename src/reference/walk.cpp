@@ -155,7 +155,8 @@ WalkTally Walk::traceBlocks(const WalkGuide& guide, WalkFilm* film, uint64_t fir
                         Rng(settings_.seed, 2 * (first + b)));
     Rng jitter(settings_.seed, 2 * (first + b) + 1);
     for (uint64_t i = 0; i < kBlock; ++i)
-      photons.fly((double(i) + double(jitter.uniform())) / double(kBlock), int(i % 3));
+      // Each stratum draws its paths for each channel in turn: PathWeight takes them evenly from the three.
+      photons.fly((double(i) + double(jitter.uniform())) / double(kBlock), int((i + first + b) % 3));
     tallies[b] = photons.tally();
   });
   WalkTally sum;
