@@ -29,7 +29,7 @@ constexpr uint64_t kLargestBatch = 65536;  // photons between two looks at the p
 constexpr uint64_t kBatches = 32;          // at least, of a run of given length: variances good to 25 %
 constexpr int kPilotBlocks = 16;
 constexpr float kPilotChance = 0.3f;
-constexpr uint64_t kPilotStream = uint64_t(1) << 62;
+constexpr uint64_t kPilotStream = uint64_t(1) << 62, kTurnStream = uint64_t(1) << 61;
 
 /// How finely the distance grid follows the surface: about two cells a mean free path, within reason.
 int gridCells(const transport::Medium& medium) {
@@ -154,9 +154,11 @@ WalkTally Walk::traceBlocks(const WalkGuide& guide, WalkFilm* film, uint64_t fir
     WalkPhotons photons(world_, guide, film, learn ? &(*learn)[b] : nullptr,
                         Rng(settings_.seed, 2 * (first + b)));
     Rng jitter(settings_.seed, 2 * (first + b) + 1);
+    // Three blocks in a row draw each stratum's paths for all channels, as PathWeight takes it.
+    const uint64_t block = first + b;
+    const uint64_t turn = Rng(settings_.seed, kTurnStream + block / 3).below(3) + block;
     for (uint64_t i = 0; i < kBlock; ++i)
-      // Each stratum draws its paths for each channel in turn: PathWeight takes them evenly from the three.
-      photons.fly((double(i) + double(jitter.uniform())) / double(kBlock), int((i + first + b) % 3));
+      photons.fly((double(i) + double(jitter.uniform())) / double(kBlock), int((i + turn) % 3));
     tallies[b] = photons.tally();
   });
   WalkTally sum;

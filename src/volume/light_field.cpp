@@ -145,7 +145,8 @@ void LightSolver::solve(LightField& field) {
 
 /// Light that leaves, about the normal as scattered light does, meets a surface and leaves again: again and
 /// again by tracing and a solve while there is much left of it; what would go on the same way then is taken
-/// as a geometric series. Photons follow their own light; what diffusion sends out is left for the next round.
+/// as a geometric series. Photons follow their own light; what diffusion sends out is left for the next
+/// round.
 LightField::Fluxes LightSolver::lightThatReturns(LightField::Fluxes leaving, int oneOf) {
   const auto start = std::chrono::steady_clock::now();
   LightField::Fluxes result(leaving.size());

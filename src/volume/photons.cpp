@@ -265,8 +265,8 @@ void Tracer::leave(const Photon& photon, const RayHit& hit, const glm::vec3& flu
     tally_.unscattered += Rgb(flux);
   }
   // So that what is followed weighs as much as the photon did at first.
-  const float chance = std::fmin(1.0f, photon.order > 0 ? kReturnChance * largest(flux) / photon.arrived
-                                                        : kBranchChance * share);
+  const float chance = std::fmin(
+      1.0f, photon.order > 0 ? kReturnChance * largest(flux) / photon.arrived : kBranchChance * share);
   if (photon.branch >= kMostBranches || rng_.uniform() >= chance) return;
   const float cosI = std::fmin(1.0f, glm::dot(photon.direction, hit.normal)),
               eta = 1 / body(photon).medium.eta;

@@ -50,6 +50,43 @@ TEST(Walk, ChannelsShareOnePathWithoutBias) {
   }
 }
 
+/// Boxes side by side, each lit by the share of one of the even steps that photons start in; every third one
+/// is alike, so that a step's number tells how thick its box is.
+std::shared_ptr<const Mesh> boxesInSteps() {
+  constexpr int kSteps = 1024, kSide = 32;
+  auto mesh = std::make_shared<Mesh>();
+  for (int i = 0; i < kSteps; ++i) {
+    const float thickness[3] = {0.05f, 0.2f, 1};
+    const auto box = boxMesh(glm::vec3(0.4f, 0.4f, thickness[i % 3]));
+    const auto first = uint32_t(mesh->positions.size());
+    for (const glm::vec3& p : box->positions)
+      mesh->positions.push_back(p + glm::vec3(float(i % kSide), float(i / kSide), 0));
+    mesh->normals.insert(mesh->normals.end(), box->normals.begin(), box->normals.end());
+    for (const glm::uvec3& t : box->triangles) mesh->triangles.push_back(t + first);
+  }
+  return mesh;
+}
+
+TEST(Walk, EveryPartOfTheLightServesAllChannels) {
+  const Coefficients medium{.sigma_s = Rgb(4, 1, 0.2), .sigma_a = Rgb(0.5, 1, 2), .g = 0, .eta = 1.3};
+  const auto mesh = boxesInSteps();
+  const auto absorbed = [&](const Coefficients& coefficients, uint64_t seed) {
+    Scene scene = sceneOf(translucent(mesh, 32, coefficients));
+    scene.lights = {ParallelLight{.azimuth = 0, .elevation = 0}};
+    // Away from it all, so that photons start evenly: nothing tells them where it pays.
+    scene.camera = PinholeCamera{.position = {0, 0, 300}, .target = {0, 0, 600}, .fov = 10};
+    RenderSettings settings = walkSettings(16, 25);
+    settings.seed = seed;
+    return share(renderReference(scene, settings), "absorbed");
+  };
+  const auto [together, togetherError] = overSeeds(4, [&](uint64_t seed) { return absorbed(medium, seed); });
+  const Coefficients red{
+      .sigma_s = Rgb(medium.sigma_s.x), .sigma_a = Rgb(medium.sigma_a.x), .g = 0, .eta = 1.3};
+  const auto [alone, aloneError] = overSeeds(4, [&](uint64_t seed) { return absorbed(red, 100 + seed); });
+  EXPECT_NEAR(together.x, alone.x, 0.02);  // .07 less if every step had one channel
+  EXPECT_LE(std::hypot(togetherError.x, aloneError.x), 0.005);
+}
+
 /// Uniform light from everywhere, as many parallel lights: inside, the radiance is eta^2 L0 everywhere, so as
 /// much leaves as enters at every point: B = pi L0 C(eta), but for the unscattered part (2 / (optical
 /// diameter)^2 of it).
