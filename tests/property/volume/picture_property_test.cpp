@@ -6,6 +6,7 @@
 #include "lychnite/base/error.h"
 #include "lychnite/mesh/builtin.h"
 #include "lychnite/optics/materials.h"
+#include "lychnite/reference/reference.h"
 #include "lychnite/volume/volume.h"
 
 namespace lychnite {
@@ -219,6 +220,27 @@ TEST(VolumePicture, ABoxIsFlatWhateverNormalsItsFileHas) {
   }
   EXPECT_GT(least, 0);
   EXPECT_LT(most, 1.02 * least);
+}
+
+/// Thin plates scatter light forwards through each other: it does not leave them as from a thick body.
+TEST(VolumePicture, LightThatMeetsAnotherSurfaceComesAsItLeft) {
+  Scene scene;
+  for (int i = 0; i < 2; ++i) {
+    scene.objects.push_back({.mesh = builtinMesh("slab"), .size = 10, .position = {0, 0, -4.0 * i}});
+    scene.objects[size_t(i)].material.medium = {.sigma_s = Rgb(2), .sigma_a = Rgb(0.3), .g = 0.8, .eta = 1.3};
+  }
+  scene.lights.push_back(ParallelLight{.azimuth = 0, .elevation = 0});
+  scene.camera = PinholeCamera{.position = {0, 0, -300}, .target = {0, 0, 0}, .fov = 1.6};
+  RenderSettings settings = settingsOf(8);
+  settings.components.single = settings.components.surface = false;
+  settings.aovs = {"radiosity"};
+  VolumeSolver solver;
+  solver.update(scene, {.cells = 24, .collisions = 12});
+  for (int pass = 0; pass < 4; ++pass) solver.refine();
+  const double ours = meanOf(solver.picture(settings), "radiosity");
+  settings.method = Method::kWalk;
+  settings.samples = 20000;
+  EXPECT_NEAR(ours / meanOf(renderReference(scene, settings), "radiosity"), 1, 0.03);
 }
 
 }  // namespace
