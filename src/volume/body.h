@@ -27,6 +27,7 @@ struct Body {
   Body(std::shared_ptr<const Shape> which, const RayScene& rays, int object, bool alone);
 
   glm::vec3 toLocal(const glm::vec3& p) const { return (turnBack * (p - position)) / size; }
+  glm::vec3 toScene(const glm::vec3& p) const { return position + glm::inverse(turnBack) * (size * p); }
   /// Distance that light at p is surely in this medium, scene units.
   float clear(const glm::vec3& p) const { return trustClear ? shape->grid.clear(toLocal(p)) * size : 0; }
 

@@ -169,6 +169,13 @@ void DiffusionSystem::exits(const std::vector<Lanes>& phi, std::vector<Lanes>& n
     if (samples[i].cell != Grid::kNone) nodes[samples[i].node] += exit_[i] * D_ * phi[samples[i].cell];
 }
 
+void DiffusionSystem::sourcesOfExits(const std::vector<Lanes>& weights, std::vector<Lanes>& Q) const {
+  Q.assign(grid_.size(), Lanes{0, 0, 0, 0});
+  const auto& samples = surface_.samples();
+  for (size_t i = 0; i < samples.size(); ++i)
+    if (samples[i].cell != Grid::kNone) Q[samples[i].cell] += exit_[i] * D_ * weights[samples[i].node];
+}
+
 Rgb DiffusionSystem::absorbed(const std::vector<Lanes>& phi) const {
   Rgb sum(0);
   for (size_t i = 0; i < phi.size(); ++i)

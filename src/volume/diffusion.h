@@ -92,6 +92,9 @@ class DiffusionSystem {
 
   /// Flux that leaves at each node: sum over its samples of a phi D / u(d).
   void exits(const std::vector<Lanes>& phi, std::vector<Lanes>& nodes) const;
+  /// The source of each cell for which a cell's solution is what a unit source of it makes of weights at the
+  /// nodes: the sum of weight times exit. (The equation is symmetric.)
+  void sourcesOfExits(const std::vector<Lanes>& weights, std::vector<Lanes>& Q) const;
   /// Power absorbed in the cells: sum of sigma_a V phi.
   Rgb absorbed(const std::vector<Lanes>& phi) const;
   const DiffusionRgb& medium() const { return medium_; }

@@ -17,6 +17,9 @@ constexpr size_t kBlock = 2048;
 constexpr double kStep[5] = {0.8812714616335696, 0.7766393890897682, 0.6844301295853426, 0.6031687406857282,
                              0.5315553977157913};
 
+// Of what a node would get, where its one look at the light is blocked: parts of it may not be.
+constexpr float kLeastDensity = 0.2f;
+
 constexpr double kChannelStep = 0.41421356237309503;  // of a recurrence of its own
 
 float turn(double x) {
@@ -25,16 +28,36 @@ float turn(double x) {
 
 }  // namespace
 
-Emission::Emission(const Surface& surface, int points) : areaEach_(surface.area() / points) {
-  points_.reserve(size_t(points));
+Emission::Emission(const Surface& surface, const Entering& entering, const std::vector<float>& importance,
+                   int points) {
   const auto& samples = surface.samples();
+  const auto& nodes = surface.nodes();
+  std::vector<double> density(nodes.size(), 0);
+  double total = 0;
+  for (size_t n = 0; n < nodes.size(); ++n) {
+    if (!(nodes[n].area > 0)) continue;
+    density[n] = double(std::fmax(entering.flux[n], kLeastDensity * entering.unshaded[n]) / nodes[n].area);
+    if (!importance.empty()) density[n] *= double(importance[n]);
+  }
+  for (const auto& sample : samples) total += double(sample.area) * density[sample.node];
+  if (!(total > 0)) return;
+  double squares = 0;
+  for (const auto& sample : samples)
+    squares += double(sample.area) * density[sample.node] * density[sample.node];
+  density_ = points * squares / (total * total);
+  points_.reserve(size_t(points));
   double before = 0;
   uint32_t sample = 0;
+  const auto share = [&] { return double(samples[sample].area) * density[samples[sample].node]; };
   for (int i = 0; i < points; ++i) {
-    const double at = (i + 0.5) * areaEach_;
-    while (sample + 1 < samples.size() && before + double(samples[sample].area) <= at)
-      before += double(samples[sample++].area);
-    points_.push_back({sample, turn(0.5 + i * kStep[0]), turn(0.5 + i * kStep[1])});
+    const double at = (i + 0.5) * total / points;
+    while (sample + 1 < samples.size() && before + share() <= at) {
+      before += share();
+      ++sample;
+    }
+    if (!(share() > 0)) continue;
+    points_.push_back({sample, turn(0.5 + i * kStep[0]), turn(0.5 + i * kStep[1]),
+                       float(total / points / density[samples[sample].node])});
   }
 }
 
@@ -64,7 +87,7 @@ struct Pass {
     const float cosine = glm::dot(towards, hit.normal);
     if (cosine <= 0) return;
     if (world.rays->occluded(offPoint(hit, towards), towards, float(seen.distance))) return;
-    const float area = float(emission.areaEach()) * body.size * body.size;
+    const float area = point.area * body.size * body.size;
     const double n = double(i);
     const glm::vec3 u(turn(n * kStep[2] + double(shift[2])), turn(n * kStep[3] + double(shift[3])),
                       turn(n * kStep[4] + double(shift[4])));
@@ -131,9 +154,9 @@ Unshaded unshadedFlux(const World& world, size_t object, const RayLight& light) 
   Unshaded result{std::vector<float>(samples.size(), 0),
                   std::vector<uint32_t>(body.shape->surface.nodes().size(), Grid::kNone)};
   tbb::parallel_for(size_t(0), samples.size(), [&](size_t s) {
-    const RayHit hit = middleOf(world, object, uint32_t(s));
-    const RayLight::Seen seen = light.seenFrom(hit.position);
-    const float cosine = std::fmin(1.0f, glm::dot(glm::vec3(seen.direction), hit.normal));
+    const RayLight::Seen seen = light.seenFrom(body.toScene(samples[s].position));
+    const float cosine =
+        std::fmin(1.0f, glm::dot(body.turnBack * glm::vec3(seen.direction), samples[s].normal));
     if (cosine <= 0) return;
     const float T = 1 - transport::fresnel(cosine, body.medium.eta).reflectance;
     result.samples[s] = float(seen.irradiance.x) * cosine * T * samples[s].area * body.size * body.size;
@@ -163,9 +186,12 @@ std::vector<Entering> enteringFlux(const World& world, const RayLight& light) {
       const glm::vec3 towards(seen.direction);
       lit[n] = !world.rays->occluded(offPoint(hit, towards), towards, float(seen.distance));
     });
-    result[object].flux.assign(nodes, 0);
+    result[object].unshaded.assign(nodes, 0);
     for (uint32_t s = 0; s < samples.size(); ++s)
-      if (lit[samples[s].node]) result[object].flux[samples[s].node] += unshaded.samples[s];
+      result[object].unshaded[samples[s].node] += unshaded.samples[s];
+    result[object].flux = result[object].unshaded;
+    for (size_t n = 0; n < nodes; ++n)
+      if (!lit[n]) result[object].flux[n] = 0;
     result[object].brightest = std::move(unshaded.brightest);
   }
   return result;

@@ -34,6 +34,7 @@ void LightSolver::beam(LightField& field) {
   const auto start = std::chrono::steady_clock::now();
   const size_t bodies = world_.bodies.size();
   field.passes = field.solved = field.exchangedAt = 0;
+  field.emission.clear();
   field.entering = enteringFlux(world_, field.light);
   field.beamed = beamLight(world_, field.light, field.entering);
   stats_.rays += field.beamed.tally.rays;
@@ -61,8 +62,16 @@ void LightSolver::beam(LightField& field) {
 
 void LightSolver::trace(LightField& field) {
   const auto start = std::chrono::steady_clock::now();
+  if (field.emission.empty()) {
+    field.emission.resize(world_.bodies.size());
+    for (size_t i = 0; i < world_.bodies.size(); ++i)
+      if (world_.bodies[i])
+        field.emission[i] =
+            Emission(world_.bodies[i]->shape->surface, field.entering[i],
+                     aim_.importance.empty() ? std::vector<float>() : aim_.importance[i], settings_.photons);
+  }
   Traced traced =
-      traceLight(world_, emission_, field.light, settings_.collisions, settings_.seed, field.passes);
+      traceLight(world_, field.emission, field.light, settings_.collisions, settings_.seed, field.passes);
   if (field.passes == 0) {
     for (int half : {0, 1}) field.deposits[half] = std::move(traced.deposits[half]);
     field.tally = traced.tally;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lychnite/volume/volume.h"
+#include "volume/aim.h"
 #include "volume/beam.h"
 #include "volume/exchange.h"
 #include "volume/last_flight.h"
@@ -17,6 +18,7 @@ struct LightField {
   Fluxes phiBeam;          ///< solution, kept as first guess
   Fluxes beam, beamFirst;  ///< all orders, first order
   // By photons.
+  std::vector<Emission> emission;     ///< of each body; empty to be found anew
   int passes = 0, solved = 0;         ///< traced, and solved for
   std::vector<Deposits> deposits[2];  ///< by two halves, of independent photons: sums over the passes
   Tally tally;
@@ -35,13 +37,12 @@ struct LightField {
 /// Brings a light's field on: first collisions, photons, diffusion, what enters again.
 class LightSolver {
  public:
-  LightSolver(const World& world, const std::vector<Emission>& emission,
-              const std::vector<std::unique_ptr<LastFlight>>& lastFlights, const Exchange& exchange,
-              const VolumeSettings& settings, VolumeStats& stats)
+  LightSolver(const World& world, const std::vector<std::unique_ptr<LastFlight>>& lastFlights,
+              const Exchange& exchange, const Aim& aim, const VolumeSettings& settings, VolumeStats& stats)
       : world_(world),
-        emission_(emission),
         lastFlights_(lastFlights),
         exchange_(exchange),
+        aim_(aim),
         settings_(settings),
         stats_(stats) {}
 
@@ -58,9 +59,9 @@ class LightSolver {
   Returned returnedOnce(const LightField::Fluxes& leaving, int round, int oneOf);
 
   const World& world_;
-  const std::vector<Emission>& emission_;
   const std::vector<std::unique_ptr<LastFlight>>& lastFlights_;
   const Exchange& exchange_;
+  const Aim& aim_;  ///< empty for none
   const VolumeSettings& settings_;
   VolumeStats& stats_;
 };

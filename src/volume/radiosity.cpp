@@ -17,7 +17,7 @@ namespace {
 constexpr size_t kWidths = 4;
 constexpr double kLeastWidth = 0.5, kWidest = 6, kWidthOfOne = 1;
 constexpr double kPhotonsOfOne = 8;  // per voxel's face, where it is kWidthOfOne
-constexpr double kBeamWidth = 1.1;   // of what has no noise: hides the cells
+constexpr double kBeamWidth = 0.8;   // of what has no noise: hides the cells
 constexpr double kAgainWidth = 2.5;
 constexpr double kLooks = 4;        // for the first order, without photons, per voxel's face, about
 constexpr float kBlock = 4;         // voxels: errors are averaged over 3 x 3 x 3 blocks of this side

@@ -15,7 +15,9 @@ namespace lychnite::volume {
 
 namespace {
 
-constexpr double kSpacing = 0.55;     // longest edge of a sample, in voxels
+// Longest edge of a triangle that is one sample, and of a sample of a larger one, in voxels: finer, so that
+// cells beside each other get equal shares of a large flat face.
+constexpr double kLongest = 0.55, kSpacing = 0.3;
 constexpr float kLeastDepth = 0.05f;  // of a centroid under the surface, in voxels
 constexpr int kMostCuts = 2048;
 
@@ -67,7 +69,7 @@ Surface::Surface(const LocalMesh& mesh, const Grid& grid) : grid_(grid) {
 }
 
 void Surface::cutTriangles(const LocalMesh& mesh) {
-  const double longest = kSpacing * grid_.side();
+  const double h = grid_.side();
   const auto& triangles = *mesh.triangles;
   firstSample_.reserve(triangles.size() + 1);
   samples_.reserve(triangles.size());
@@ -78,7 +80,7 @@ void Surface::cutTriangles(const LocalMesh& mesh) {
     const glm::dvec3 across = glm::cross(b - a, c - a);
     const double twice = glm::length(across);
     const double edge = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
-    const int m = std::clamp(int(std::ceil(edge / longest)), 1, kMostCuts);
+    const int m = edge > kLongest * h ? std::min(int(std::ceil(edge / (kSpacing * h))), kMostCuts) : 1;
     Sample sample;
     sample.normal = twice > 0 ? glm::vec3(across / twice) : glm::vec3(0, 1, 0);
     sample.area = float(0.5 * twice / (double(m) * m));
@@ -160,6 +162,13 @@ void Surface::makeNodes() {
     node.area += s.area;
   }
   std::partial_sum(firstNode_.begin(), firstNode_.end(), firstNode_.begin());
+  samplesOfNodes_.reserve(keys.size());
+  for (const Key& key : keys) {
+    const uint32_t node = samples_[key.sample].node;
+    if (firstSampleOfNode_.size() == node) firstSampleOfNode_.push_back(uint32_t(samplesOfNodes_.size()));
+    samplesOfNodes_.push_back(key.sample);
+  }
+  firstSampleOfNode_.push_back(uint32_t(samplesOfNodes_.size()));
   for (size_t n = 0; n < nodes_.size(); ++n) {
     Node& node = nodes_[n];
     if (node.area > 0) node.position /= node.area;
@@ -170,36 +179,40 @@ void Surface::makeNodes() {
 
 void Surface::orderByCell() {
   firstOfCell_.assign(grid_.size() + 1, 0);
-  for (const Sample& s : samples_)
-    if (s.cell != Grid::kNone) ++firstOfCell_[s.cell + 1];
+  for (const Node& node : nodes_)
+    if (node.cell != Grid::kNone) ++firstOfCell_[node.cell + 1];
   std::partial_sum(firstOfCell_.begin(), firstOfCell_.end(), firstOfCell_.begin());
-  ofCell_.resize(firstOfCell_.back());
+  nodesOfCells_.resize(firstOfCell_.back());
   std::vector<uint32_t> at(firstOfCell_.begin(), firstOfCell_.end() - 1);
-  for (uint32_t i = 0; i < samples_.size(); ++i)
-    if (samples_[i].cell != Grid::kNone) ofCell_[at[samples_[i].cell]++] = i;
+  for (uint32_t n = 0; n < nodes_.size(); ++n)
+    if (nodes_[n].cell != Grid::kNone) nodesOfCells_[at[nodes_[n].cell]++] = n;
 }
 
 Surface::Place Surface::place(const glm::vec3& p) const {
   Place place;
   place.cell = grid_.find(p);
-  float nearest = std::numeric_limits<float>::infinity();
+  uint32_t nearest = Grid::kNone;
+  float distance = std::numeric_limits<float>::infinity();
+  const auto look = [&](uint32_t n) {
+    const glm::vec3 way = nodes_[n].position - p;
+    if (nodes_[n].cell == Grid::kNone || glm::dot(way, way) >= distance) return;
+    distance = glm::dot(way, way);
+    nearest = n;
+  };
   if (place.cell == Grid::kNone) {
-    around(p, [&](uint32_t n) {
-      const glm::vec3 way = nodes_[n].position - p;
-      if (nodes_[n].cell == Grid::kNone || glm::dot(way, way) >= nearest) return;
-      nearest = glm::dot(way, way);
-      place.cell = nodes_[n].cell;
-    });
-    if (place.cell == Grid::kNone) return place;
-    nearest = std::numeric_limits<float>::infinity();
+    around(p, look);
+    if (nearest == Grid::kNone) return place;
+    place.cell = nodes_[nearest].cell;
+  } else {
+    for (uint32_t i = firstOfCell_[place.cell]; i < firstOfCell_[place.cell + 1]; ++i) look(nodesOfCells_[i]);
+    if (nearest == Grid::kNone) return place;
   }
-  for (uint32_t i = firstOfCell_[place.cell]; i < firstOfCell_[place.cell + 1]; ++i) {
-    const Sample& s = samples_[ofCell_[i]];
+  distance = std::numeric_limits<float>::infinity();
+  for (uint32_t i = firstSampleOfNode_[nearest]; i < firstSampleOfNode_[nearest + 1]; ++i) {
+    const Sample& s = samples_[samplesOfNodes_[i]];
     const glm::vec3 way = s.position - p;
-    const float d = glm::dot(way, way);
-    if (d < nearest) nearest = d, place.sample = ofCell_[i];
+    if (glm::dot(way, way) < distance) distance = glm::dot(way, way), place.sample = samplesOfNodes_[i];
   }
-  if (place.sample == Grid::kNone) return place;
   const Sample& s = samples_[place.sample];
   place.depth = std::max(0.0f, glm::dot(s.normal, s.position - p));
   return place;
@@ -207,7 +220,9 @@ Surface::Place Surface::place(const glm::vec3& p) const {
 
 size_t Surface::memoryBytes() const {
   return samples_.capacity() * sizeof(Sample) + nodes_.capacity() * sizeof(Node) +
-         (firstSample_.capacity() + ofCell_.capacity() + firstOfCell_.capacity() + firstNode_.capacity()) * 4;
+         (firstSample_.capacity() + samplesOfNodes_.capacity() + firstSampleOfNode_.capacity() +
+          nodesOfCells_.capacity() + firstOfCell_.capacity() + firstNode_.capacity()) *
+             4;
 }
 
 }  // namespace lychnite::volume

@@ -45,8 +45,8 @@ class Surface {
   glm::vec2 pointOf(uint32_t sample, float x, float y) const;
 
   /// Where a point inside is: its cell (the nearest node's where the columns miss it), and the nearest sample
-  /// of that cell. `depth` is the distance under that sample's plane; sample kNone when the cell has no
-  /// surface.
+  /// of that cell's nearest node. `depth` is the distance under that sample's plane; sample kNone when the
+  /// cell has no surface.
   struct Place {
     uint32_t cell = Grid::kNone, sample = Grid::kNone;
     float depth = 0;
@@ -78,7 +78,8 @@ class Surface {
   std::vector<Sample> samples_;
   std::vector<Node> nodes_;
   std::vector<uint32_t> firstSample_;  ///< of each triangle
-  std::vector<uint32_t> ofCell_, firstOfCell_;
+  std::vector<uint32_t> samplesOfNodes_, firstSampleOfNode_;
+  std::vector<uint32_t> nodesOfCells_, firstOfCell_;
   std::vector<uint32_t> firstNode_;  ///< of each voxel
   double area_ = 0;
 };

@@ -15,7 +15,6 @@ namespace lychnite::volume {
 
 namespace {
 
-constexpr size_t kBlock = 1024;            // pixels
 constexpr size_t kMostBytes = 512u << 20;  // of what is kept: some 1.2 million pixels
 // Least cosine of a facet's normal to its corners': below it is left as it is, above it is smooth.
 constexpr float kCreased = 0.72f, kSmooth = 0.85f;
@@ -209,15 +208,7 @@ void View::forPixels(const std::function<void(const Pixel&)>& visit) {
     Interruptible::check();
     Block made;
     if (blocks_[b].last.empty()) made = make(b);
-    const Block& block = made.last.empty() ? blocks_[b] : made;
-    uint32_t begin = 0, beginSpot = 0;
-    for (size_t i = 0; i < block.last.size(); ++i) {
-      visit({receivers_.receivers[first_[b * kBlock + i]].pixel,
-             std::span(block.shares).subspan(begin, block.last[i] - begin),
-             std::span(block.spots).subspan(beginSpot, block.lastSpot[i] - beginSpot)});
-      begin = block.last[i];
-      beginSpot = block.lastSpot[i];
-    }
+    visitBlock(b, made.last.empty() ? blocks_[b] : made, visit);
     const size_t bytes = made.memoryBytes();
     if (made.last.empty() || kept_ + bytes > kMostBytes) return;
     kept_ += bytes;

@@ -49,9 +49,16 @@ class View {
   /// first asked and keeps them as far as they take little memory.
   void forPixels(const std::function<void(const Pixel&)>& visit);
 
+  /// Those of them that are kept, one after the other in order, once all were found out.
+  template <class Visit>
+  void forKeptPixels(Visit visit) const {
+    for (size_t b = 0; b < blocks_.size(); ++b) visitBlock(b, blocks_[b], visit);
+  }
+
   size_t memoryBytes() const;
 
  private:
+  static constexpr size_t kBlock = 1024;  // pixels
   struct Block {
     std::vector<uint32_t> last, lastSpot;  ///< of each pixel, the share and the spot after its last one
     std::vector<Share> shares;
@@ -59,6 +66,17 @@ class View {
     size_t memoryBytes() const;
   };
   Block make(size_t block) const;
+  template <class Visit>
+  void visitBlock(size_t number, const Block& block, const Visit& visit) const {
+    uint32_t begin = 0, beginSpot = 0;
+    for (size_t i = 0; i < block.last.size(); ++i) {
+      visit(Pixel{receivers_.receivers[first_[number * kBlock + i]].pixel,
+                  std::span(block.shares).subspan(begin, block.last[i] - begin),
+                  std::span(block.spots).subspan(beginSpot, block.lastSpot[i] - beginSpot)});
+      begin = block.last[i];
+      beginSpot = block.lastSpot[i];
+    }
+  }
 
   const RayScene& rays_;
   const World& world_;

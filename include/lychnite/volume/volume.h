@@ -59,6 +59,10 @@ class VolumeSolver {
   /// (what was not done is done by the next update()).
   void update(const Scene& scene, const VolumeSettings& settings, const Progress& progress = {});
 
+  /// Spends the photons that are to come where a picture of the last update's scene with these settings shows
+  /// them, until the next update().
+  void aim(const RenderSettings& settings);
+
   /// One more pass of photons over all lights: their noise falls with the root of the passes.
   void refine(const Progress& progress = {});
 
@@ -68,8 +72,8 @@ class VolumeSolver {
   /// Radiosity of an object (translucent) at its mesh's vertices, from the last update, irradiance units.
   std::vector<glm::vec3> vertexRadiosity(int object, Orders orders) const;
 
-  /// Noise of the radiosity on all of the surface, as far as it is the photons': standard error over mean,
-  /// told by two halves of the photons. 0 without photons.
+  /// Noise of the radiosity as far as it is the photons', on all of the surface, or in the picture that they
+  /// are aimed at: standard error over mean, told by two halves of the photons. 0 without photons.
   double noise() const;
 
   /// How carefully a picture's single scattering is summed up, and shadows' edges on large objects.
