@@ -53,14 +53,30 @@ glm::dvec3 sierpinskiPoint(double u) {
   return (a + b + c) / 3.0;
 }
 
-/// The same corners turned so that edge 0-2 is the longest: halves of a long triangle grow rounder.
-glm::uvec3 longestEdgeLast(const RayMesh& mesh, const glm::uvec3& t) {
+/// How far along that curve a point with these weights is, in [0, 1].
+double sierpinskiLength(glm::dvec3 w) {
+  double u = 0, half = 0.5;
+  for (int level = 0; level < 26; ++level, half *= 0.5) {
+    // The line from corner 1 to the middle of 0-2 parts the halves.
+    if (w.x >= w.z) {
+      w = {w.x - w.z, 2 * w.z, w.y};
+    } else {
+      u += half;
+      w = {w.y, 2 * w.x, w.z - w.x};
+    }
+  }
+  return u;
+}
+
+/// Which corner comes first when a triangle's corners are turned so that edge 0-2 is the longest: halves of a
+/// long triangle grow rounder.
+int firstCorner(const RayMesh& mesh, const glm::uvec3& t) {
   const auto edge = [&](uint32_t i, uint32_t j) {
     return glm::distance(mesh.positions[i], mesh.positions[j]);
   };
   const float xy = edge(t.x, t.y), yz = edge(t.y, t.z), zx = edge(t.z, t.x);
-  if (zx >= xy && zx >= yz) return t;
-  return xy >= yz ? glm::uvec3(t.y, t.z, t.x) : glm::uvec3(t.z, t.x, t.y);
+  if (zx >= xy && zx >= yz) return 0;
+  return xy >= yz ? 1 : 2;
 }
 
 }  // namespace
@@ -74,6 +90,8 @@ SurfaceSampler::SurfaceSampler(const RayMesh& mesh) : mesh_(mesh), order_(mesh.t
   std::iota(order_.begin(), order_.end(), 0u);
   tbb::parallel_sort(order_.begin(), order_.end(),
                      [&](uint32_t a, uint32_t b) { return keys[a] != keys[b] ? keys[a] < keys[b] : a < b; });
+  place_.resize(order_.size());
+  for (size_t i = 0; i < order_.size(); ++i) place_[order_[i]] = uint32_t(i);
   cumulative_.resize(order_.size());
   double sum = 0;
   for (size_t i = 0; i < order_.size(); ++i) {
@@ -88,23 +106,46 @@ double SurfaceSampler::spacing(size_t n) const {
   return std::sqrt(area() / double(n));
 }
 
-SurfacePoint SurfaceSampler::at(double areaBefore) const {
+MeshPoint SurfaceSampler::at(double areaBefore) const {
   const auto found = std::upper_bound(cumulative_.begin(), cumulative_.end(), areaBefore);
   const size_t i = std::min(cumulative_.size() - 1, size_t(found - cumulative_.begin()));
   const double start = i ? cumulative_[i - 1] : 0;
-  const glm::uvec3 t = longestEdgeLast(mesh_, (*mesh_.triangles)[order_[i]]);
+  const int first = firstCorner(mesh_, (*mesh_.triangles)[order_[i]]);
   const double u = (areaBefore - start) / std::max(cumulative_[i] - start, 1e-300);
-  const glm::dvec3 w = sierpinskiPoint(std::clamp(u, 0.0, 1 - 1e-12));
-  const glm::dvec3 a(mesh_.positions[t.x]), b(mesh_.positions[t.y]), c(mesh_.positions[t.z]);
-  return {.position = glm::vec3(w.x * a + w.y * b + w.z * c),
-          .normal = glm::vec3(glm::normalize(glm::cross(b - a, c - a)))};
+  const glm::dvec3 turned = sierpinskiPoint(std::clamp(u, 0.0, 1 - 1e-12));
+  glm::dvec3 w;
+  for (int c = 0; c < 3; ++c) w[(first + c) % 3] = turned[c];
+  return {order_[i], float(w.y), float(w.z)};
+}
+
+size_t SurfaceSampler::patchOf(const MeshPoint& point, size_t n) const {
+  const uint32_t i = place_[point.triangle];
+  const double start = i ? cumulative_[i - 1] : 0;
+  const int first = firstCorner(mesh_, (*mesh_.triangles)[point.triangle]);
+  const glm::dvec3 w(1 - double(point.u) - double(point.v), point.u, point.v);
+  const glm::dvec3 turned(w[first], w[(first + 1) % 3], w[(first + 2) % 3]);
+  const double area = start + sierpinskiLength(turned) * (cumulative_[i] - start);
+  return std::min(n - 1, size_t(area / cumulative_.back() * double(n)));
+}
+
+std::vector<MeshPoint> SurfaceSampler::pointsOfPatches(size_t n, size_t each, uint64_t seed) const {
+  std::vector<MeshPoint> points(n * each);
+  const double part = area() / double(points.size());
+  tbb::parallel_for(size_t(0), points.size(),
+                    [&](size_t i) { points[i] = at((double(i) + uniformAt(seed, i)) * part); });
+  return points;
 }
 
 std::vector<SurfacePoint> SurfaceSampler::sample(size_t n, uint64_t seed) const {
   std::vector<SurfacePoint> points(n);
   const double patch = area() / double(n);
-  tbb::parallel_for(size_t(0), n,
-                    [&](size_t i) { points[i] = at((double(i) + uniformAt(seed, i)) * patch); });
+  tbb::parallel_for(size_t(0), n, [&](size_t i) {
+    const MeshPoint p = at((double(i) + uniformAt(seed, i)) * patch);
+    const glm::uvec3& t = (*mesh_.triangles)[p.triangle];
+    points[i] = {.position = mesh_.positions[t.x] * (1 - p.u - p.v) + mesh_.positions[t.y] * p.u +
+                             mesh_.positions[t.z] * p.v,
+                 .normal = mesh_.facets[p.triangle]};
+  });
   return points;
 }
 

@@ -28,14 +28,19 @@ class SurfaceSampler {
   double area() const { return cumulative_.back(); }  ///< unit^2
   /// Side of a square as large as one of n patches.
   double spacing(size_t n) const;
+  /// Which of n patches a point lies in.
+  size_t patchOf(const MeshPoint& point, size_t n) const;
+  /// `each` random points in each of n patches, patch after patch; the same for the same seed.
+  std::vector<MeshPoint> pointsOfPatches(size_t n, size_t each, uint64_t seed) const;
   /// n points, each standing for area() / n; the same for the same seed whatever the thread count.
   std::vector<SurfacePoint> sample(size_t n, uint64_t seed) const;
 
  private:
-  SurfacePoint at(double areaBefore) const;
+  MeshPoint at(double areaBefore) const;
 
   const RayMesh& mesh_;
   std::vector<uint32_t> order_;     ///< triangles along the curve
+  std::vector<uint32_t> place_;     ///< of each triangle in it
   std::vector<double> cumulative_;  ///< area up to and with order_[i]
 };
 

@@ -9,11 +9,8 @@
 #include <cmath>
 #include <functional>
 #include <glm/common.hpp>
-#include <numbers>
 
 #include "lychnite/base/error.h"
-#include "lychnite/mesh/load.h"
-#include "lychnite/optics/fresnel.h"
 #include "lychnite/scene/scene_file.h"
 #include "reference/picture.h"
 #include "reference/single_light.h"
@@ -31,12 +28,6 @@ constexpr int kPilotBlocks = 16;
 constexpr float kPilotChance = 0.3f;
 constexpr uint64_t kPilotStream = uint64_t(1) << 62, kTurnStream = uint64_t(1) << 61;
 
-/// How finely the distance grid follows the surface: about two cells a mean free path, within reason.
-int gridCells(const transport::Medium& medium) {
-  const float sigma = std::max({medium.sigma_t.x, medium.sigma_t.y, medium.sigma_t.z});
-  return std::clamp(int(4 * sigma), 32, 160);
-}
-
 class Walk {
  public:
   Walk(const RayScene& rays, const CameraReceivers& receivers, const RenderSettings& settings,
@@ -48,7 +39,6 @@ class Walk {
   Image picture(bool finished, bool keepState) const;
 
  private:
-  void addObject(int object, const LogSink& log);
   void learn();
   WalkTally traceBlocks(const WalkGuide& guide, WalkFilm* film, uint64_t first, uint64_t count,
                         std::vector<WalkGuideSamples>* learn) const;
@@ -92,16 +82,13 @@ Walk::Walk(const RayScene& rays, const CameraReceivers& receivers, const RenderS
       settings_(settings),
       emission_(rays),
       lens_(rays, settings.width, settings.height),
+      world_(makeWalkWorld(rays, emission_, log)),
       singleLight_(rays, receivers),
       multiple_(pixels()),
       single_(pixels()),
       radiosity_(settings.wants("radiosity") ? pixels() : 0) {
-  world_.rays = &rays_;
-  world_.emission = &emission_;
   world_.lens = &lens_;
-  world_.fluxUnit = float(std::max(emission_.power(), 1e-30));
   world_.radiosity = settings.wants("radiosity");
-  for (int object = 0; object < int(rays.objectCount()); ++object) addObject(object, log);
   const uint64_t even = openEnded() ? kLargestBatch : uint64_t(targetPhotons()) / kBatches;
   // A look at the picture costs as much as some photons: large pictures are looked at less often.
   const uint64_t largest = std::max<uint64_t>(kLargestBatch, pixels() / 8);
@@ -109,24 +96,6 @@ Walk::Walk(const RayScene& rays, const CameraReceivers& receivers, const RenderS
   const double all = std::max(emission_.power(), 1e-300) * lens_.largestImportance();
   film_ =
       std::make_unique<WalkFilm>(pixels(), world_.radiosity ? 2 : 1, std::ldexp(all * double(batch_), -60));
-}
-
-void Walk::addObject(int object, const LogSink& log) {
-  const Object& source = rays_.scene().objects[size_t(object)];
-  world_.media.emplace_back(rays_.medium(object));
-  world_.lobeScale.push_back(
-      float(1 / (std::numbers::pi * diffuseTransmittanceOutside(source.material.medium.eta))));
-  world_.closed.push_back(1);
-  world_.distance.push_back(nullptr);
-  if (rays_.opaque(object)) return;
-  world_.distance.back() = std::make_unique<WalkDistance>(rays_, object, gridCells(world_.media.back()));
-  world_.closed.back() = inspect(*source.mesh).closed ? 1 : 0;
-  if (!world_.closed.back())
-    logTo(log, LogLevel::kWarning,
-          fmt::format(
-              "walk: the mesh of {} is not closed, so its inside is undefined; light that meets a hole or a "
-              "wall from behind is lost (metadata 'lost' says how much)",
-              source.name.empty() ? source.model : source.name));
 }
 
 /// Short runs that are thrown away: where fans of rays pay, and where they should aim.

@@ -432,6 +432,8 @@ void WalkPhotons::leave(const RayHit& hit, float cosI) {
   const float eta = 1 / medium().eta;
   const transport::Boundary boundary = transport::fresnel(cosI, eta);
   const float T = 1 - boundary.reflectance;
+  if (exits_ && T > 0 && order_ >= 1)
+    exits_->push_back({hit.object, {hit.triangle, hit.u, hit.v}, weight_.flux() * T});
   if (mirrorings_ > kFollowed && T > 0 && order_ >= firstOrder()) splatIfSeen(hit, weight_.flux() * T);
   if (rng_.uniform() < boundary.reflectance) {
     direction_ = transport::mirrored(direction_, hit.normal);

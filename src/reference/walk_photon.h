@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "lychnite/base/log.h"
 #include "lychnite/base/vec.h"
 #include "reference/ray_scene.h"
 #include "reference/transport.h"
@@ -27,6 +28,16 @@ struct WalkWorld {
   std::vector<char> closed;                             ///< per object
   float fluxUnit = 1;                                   ///< what a photon carries on average, mean of RGB
   bool radiosity = false;                               ///< the film has layer 1
+};
+
+/// For a scene, without lens. Warns of meshes that are not closed. Keeps references.
+WalkWorld makeWalkWorld(const RayScene& rays, const WalkEmission& emission, const LogSink& log);
+
+/// Light that leaves a surface after at least one collision, as expected where a photon meets it.
+struct WalkExit {
+  int object;
+  MeshPoint point;
+  glm::vec3 flux;
 };
 
 /// Where the power of some photons went: sums of flux.
@@ -53,6 +64,8 @@ class WalkPhotons {
               transport::Rng rng)
       : world_(world), guide_(guide), film_(film), learn_(learn), rng_(rng) {}
 
+  /// Appends all that leaves from now on to `exits`, seen or not.
+  void keepExits(std::vector<WalkExit>* exits) { exits_ = exits; }
   /// One photon for the start at `u` in [0, 1), drawn by `channel`.
   void fly(double u, int channel);
   const WalkTally& tally() const { return tally_; }
@@ -93,6 +106,7 @@ class WalkPhotons {
   const WalkGuide& guide_;
   WalkFilm* film_;
   WalkGuideSamples* learn_;
+  std::vector<WalkExit>* exits_ = nullptr;
   transport::Rng rng_;
   WalkTally tally_;
   RayFan fan_;

@@ -36,6 +36,19 @@ void Gather::weigh(const Shape& shape, const glm::vec3& p, const glm::vec3& norm
   for (Weight& w : weights) w.weight /= std::fmax(sum, kLeast);
 }
 
+void Gather::weigh(const Shape& shape, const MeshPoint& point, std::vector<Weight>& weights) {
+  const Mesh& mesh = *shape.mesh;
+  const glm::uvec3& t = mesh.triangles[point.triangle];
+  const float w = 1 - point.u - point.v;
+  const auto& p = shape.local.positions;
+  const glm::vec3 at =
+      float(w) * glm::vec3(p[t.x]) + point.u * glm::vec3(p[t.y]) + point.v * glm::vec3(p[t.z]);
+  const glm::vec3 normal = w * mesh.normals[t.x] + point.u * mesh.normals[t.y] + point.v * mesh.normals[t.z];
+  const auto& sample = shape.surface.samples()[shape.surface.sampleAt(point.triangle, point.u, point.v)];
+  const float length = glm::length(normal);
+  weigh(shape, at, length > 1e-6f ? normal / length : sample.normal, sample.cell, weights);
+}
+
 Gather::Gather(const Shape& shape) {
   const Mesh& mesh = *shape.mesh;
   std::vector<uint32_t> cell(mesh.positions.size(), Grid::kNone);

@@ -16,9 +16,11 @@ class Gather {
     uint32_t node;
     float weight;  ///< over the sum of weight times area
   };
-  /// Weights for a point, local units, of triangle `triangle` at barycentrics (u, v).
+  /// Weights for a point, local units, of a surface whose interpolated normal there is given, over `cell`.
   static void weigh(const Shape& shape, const glm::vec3& p, const glm::vec3& normal, uint32_t cell,
                     std::vector<Weight>& weights);
+
+  static void weigh(const Shape& shape, const MeshPoint& point, std::vector<Weight>& weights);
 
   /// For all vertices of a mesh, kept.
   explicit Gather(const Shape& shape);

@@ -1,3 +1,6 @@
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -168,6 +171,23 @@ std::vector<glm::vec3> VolumeSolver::vertexRadiosity(int object, Orders orders) 
   auto& gather = impl_->gathers[size_t(object)];
   if (!gather) gather = std::make_unique<Gather>(*impl_->world.bodies[size_t(object)]->shape);
   return gather->vertices(impl_->flux(object, orders).flux);
+}
+
+std::vector<glm::vec3> VolumeSolver::pointRadiosity(int object, const std::vector<MeshPoint>& points,
+                                                    Orders orders) const {
+  const Shape& shape = *impl_->world.bodies[size_t(object)]->shape;
+  const std::vector<Lanes> flux = impl_->flux(object, orders).flux;
+  std::vector<glm::vec3> result(points.size());
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, points.size()), [&](const auto& range) {
+    std::vector<Gather::Weight> weights;
+    for (size_t i = range.begin(); i < range.end(); ++i) {
+      Gather::weigh(shape, points[i], weights);
+      Lanes sum{0, 0, 0, 0};
+      for (const Gather::Weight& w : weights) sum += w.weight * flux[w.node];
+      result[i] = {sum[0], sum[1], sum[2]};
+    }
+  });
+  return result;
 }
 
 /// By nodes, each weighted by how much of the picture it is that photons are aimed at, or by its area.

@@ -31,6 +31,12 @@ struct Mesh {
   size_t memoryBytes() const;
 };
 
+/// A point of a mesh: barycentric weights of a triangle's second and third corner.
+struct MeshPoint {
+  uint32_t triangle = 0;
+  float u = 0, v = 0;
+};
+
 Bounds boundsOf(const Mesh& mesh);
 
 /// The kept extent, or a fresh look at all positions. Loaders and built-in models keep theirs.

@@ -72,6 +72,10 @@ class VolumeSolver {
   /// Radiosity of an object (translucent) at its mesh's vertices, from the last update, irradiance units.
   std::vector<glm::vec3> vertexRadiosity(int object, Orders orders) const;
 
+  /// The same at any points of it.
+  std::vector<glm::vec3> pointRadiosity(int object, const std::vector<MeshPoint>& points,
+                                        Orders orders) const;
+
   /// Noise of the radiosity as far as it is the photons', on all of the surface, or in the picture that they
   /// are aimed at: standard error over mean, told by two halves of the photons. 0 without photons.
   double noise() const;

@@ -115,6 +115,23 @@ TEST(VolumeProperty, TheFirstPictureIsNearTheLast) {
   }
 }
 
+TEST(VolumeProperty, PointsTellWhatVerticesTell) {
+  const Scene scene = sceneOf("figurine", "skin1", 10);
+  VolumeSolver solver;
+  solver.update(scene, kQuick);
+  const Mesh& mesh = *scene.objects[0].mesh;
+  std::vector<MeshPoint> points;
+  for (uint32_t t = 0; t < mesh.triangles.size(); ++t) points.push_back({t, t % 2 ? 1.0f : 0.0f, 0});
+  const auto at = solver.pointRadiosity(0, points, VolumeSolver::Orders::kAll);
+  const auto vertices = solver.vertexRadiosity(0, VolumeSolver::Orders::kAll);
+  size_t other = 0;  // a vertex between two cells takes one of them
+  for (uint32_t t = 0; t < points.size(); ++t) {
+    const glm::vec3 vertex = vertices[mesh.triangles[t][t % 2]];
+    other += glm::length(at[t] - vertex) > 0.01f * glm::length(vertex);
+  }
+  EXPECT_LT(other, points.size() / 10);
+}
+
 TEST(VolumeProperty, TheFirstPictureDoesNotDependOnTheSeed) {
   VolumeSolver solvers[2];
   std::vector<glm::vec3> values[2];

@@ -1,0 +1,127 @@
+#include "lychnite/reference/surface_walk.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "lychnite/base/error.h"
+#include "lychnite/mesh/builtin.h"
+#include "lychnite/optics/materials.h"
+#include "lychnite/reference/reference.h"
+#include "lychnite/reference/slab.h"
+#include "reference/surface_samples.h"
+#include "walk_scenes.h"
+
+namespace lychnite {
+namespace {
+
+Rgb meanOf(const std::vector<Rgb>& values) {
+  return std::accumulate(values.begin(), values.end(), Rgb(0)) / double(values.size());
+}
+
+Scene sceneOf(const char* model, const char* material, double size) {
+  return sceneOf(translucent(builtinMesh(model), size, findMaterial(material, "").coefficients));
+}
+
+TEST(SurfacePatches, EveryPointOfAPatchIsFoundInIt) {
+  for (const char* model : {"slab", "figurine"}) {  // 2 triangles a wall, and 31 thousand
+    const RayScene rays(sceneOf(model, "fig6", 10));
+    const SurfaceSampler sampler(rays.mesh(0));
+    constexpr size_t kPatches = 700, kEach = 5;
+    const auto points = sampler.pointsOfPatches(kPatches, kEach, 3);
+    ASSERT_EQ(points.size(), kPatches * kEach);
+    size_t elsewhere = 0;  // float weights of a point on the border of two patches may tell the other one
+    for (size_t i = 0; i < points.size(); ++i) elsewhere += sampler.patchOf(points[i], kPatches) != i / kEach;
+    EXPECT_LT(elsewhere, points.size() / 1000) << model;
+  }
+}
+
+TEST(SurfaceWalk, LeavesAllLightWhereNothingIsAbsorbed) {
+  Coefficients medium;
+  medium.sigma_s = Rgb(1, 2, 4);
+  medium.eta = 1;  // nothing is mirrored
+  Scene scene = sceneOf(translucent(builtinMesh("sphere"), 20, medium));
+  const SurfaceWalkResult walk = surfaceWalk(scene, {.patches = 1, .photons = 200'000});
+  // Of a sphere's cross section, less what passes unscattered: int 2 r exp(-2 sigma R sqrt(1 - r^2)) dr.
+  for (int c = 0; c < 3; ++c) {
+    const double t = 20 * medium.sigma_s[c], passes = 2 * (1 - (1 + t) * std::exp(-t)) / (t * t);
+    const double expected = ParallelLight{}.irradiance[c] / 4 * (1 - passes);
+    const double mean = 0.5 * (walk.radiosity[0][0][0][c] + walk.radiosity[1][0][0][c]);
+    EXPECT_NEAR(mean, expected, 0.004 * expected) << c;  // the mesh is inscribed: .2 % of the area
+  }
+}
+
+TEST(SurfaceWalk, ReflectsAndTransmitsLikeASlab) {
+  const Coefficients medium = findMaterial("skin1", "").coefficients;
+  Scene scene = sceneOf("slab", "skin1", 20);  // 2 mm thick, some three mean free paths
+  scene.lights = {ParallelLight{.azimuth = 0, .elevation = 0, .irradiance = Rgb(1)}};
+  constexpr size_t kPatches = 4000;
+  const SurfaceWalkResult walk = surfaceWalk(scene, {.patches = kPatches, .photons = 600'000});
+  const SlabResult slab = simulateSlab({.medium = medium, .thickness = 2, .photons = 400'000});
+  const auto points = patchPoints(scene, 0, kPatches, 1);
+  const Mesh& mesh = *scene.objects[0].mesh;
+  Rgb reflected(0), transmitted(0);
+  double top = 0, bottom = 0;
+  for (size_t i = 0; i < kPatches; ++i) {
+    const glm::uvec3& t = mesh.triangles[points[i].triangle];
+    const glm::vec3 p = (mesh.positions[t.x] + mesh.positions[t.y] + mesh.positions[t.z]) / 3.0f;
+    if (std::abs(p.x) > 0.25f || std::abs(p.y) > 0.25f) continue;
+    const Rgb both = 0.5 * (walk.radiosity[0][0][i] + walk.radiosity[1][0][i]);
+    (p.z > 0 ? reflected : transmitted) += both;
+    (p.z > 0 ? top : bottom) += 1;
+  }
+  for (int c = 0; c < 3; ++c) {
+    const double R = slab.diffuse_reflectance.value[c],
+                 T = slab.total_transmittance.value[c] - slab.unscattered_transmittance.value[c];
+    EXPECT_NEAR(reflected[c] / top, R, 0.02 * R + 0.02 * slab.unscattered_transmittance.value[c]) << c;
+    EXPECT_NEAR(transmitted[c] / bottom, T, 0.03 * T) << c;
+  }
+}
+
+TEST(SurfaceWalk, AgreesWithTheWalkThatACameraSees) {
+  Scene scene = sceneOf("sphere", "skin1", 20);
+  // The camera stands where the light comes from, far away: it sees what half of the patches are.
+  scene.lights = {ParallelLight{.azimuth = 0, .elevation = 0}};
+  scene.camera = OrbitCamera{.azimuth = 0, .elevation = 0, .fov = 2};
+  RenderSettings settings = walkSettings(16, 400);
+  settings.aovs = {"radiosity"};
+  const Image picture = renderReference(scene, settings);
+  constexpr size_t kPatches = 4000;
+  const SurfaceWalkResult walk = surfaceWalk(scene, {.patches = kPatches, .photons = 600'000});
+  const auto points = patchPoints(scene, 0, kPatches, 1);
+  const Mesh& mesh = *scene.objects[0].mesh;
+  Rgb seen(0), pictured(0);
+  for (size_t i = 0; i < kPatches; ++i) {
+    const float z = mesh.positions[mesh.triangles[points[i].triangle].x].z;
+    // A patch covers a part of the picture that goes with its cosine.
+    if (z > 0) seen += double(z) * 0.5 * (walk.radiosity[0][0][i] + walk.radiosity[1][0][i]);
+  }
+  double cosines = 0, pixels = 0;
+  for (size_t i = 0; i < kPatches; ++i)
+    cosines += std::max(0.0, double(mesh.positions[mesh.triangles[points[i].triangle].x].z));
+  for (size_t i = 0; i < picture.pixelCount(); ++i) {
+    pictured += Rgb(picture.rgb(i, "radiosity"));
+    pixels += double(picture.channel("A")[i]);
+  }
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c] / cosines, pictured[c] / pixels, 0.02 * seen[c] / cosines);
+}
+
+TEST(SurfaceWalk, IsTheSameOnAnyThreadsAndItsHalvesDiffer) {
+  const Scene scene = sceneOf("figurine", "fig6", 10);
+  const SurfaceWalkResult one = surfaceWalk(scene, {.patches = 50, .photons = 30'000, .threads = 1});
+  const SurfaceWalkResult two = surfaceWalk(scene, {.patches = 50, .photons = 30'000, .threads = 2});
+  for (size_t half : {0, 1}) EXPECT_EQ(one.radiosity[half], two.radiosity[half]);
+  EXPECT_NE(one.radiosity[0], one.radiosity[1]);
+  const Rgb a = meanOf(one.radiosity[0][0]), b = meanOf(one.radiosity[1][0]);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], 0.05 * a[c]);
+}
+
+TEST(SurfaceWalk, RefusesNumbersOutOfRange) {
+  const Scene scene = sceneOf("sphere", "fig6", 10);
+  EXPECT_THROW(surfaceWalk(scene, {.patches = 0}), Error);
+  EXPECT_THROW(surfaceWalk(scene, {.photons = 0}), Error);
+  EXPECT_THROW(surfaceWalk(scene, {.timeLimit = -1}), Error);
+}
+
+}  // namespace
+}  // namespace lychnite
