@@ -18,6 +18,7 @@
 #include "lychnite/base/atomic_file.h"
 #include "lychnite/base/error.h"
 #include "lychnite/base/text.h"
+#include "lychnite/base/units.h"
 #include "lychnite/image/io.h"
 #include "lychnite/mesh/builtin.h"
 #include "lychnite/mesh/load.h"
@@ -34,11 +35,31 @@ namespace fs = std::filesystem;
 
 constexpr size_t kFine = 4000, kCoarse = 400;  // patches; a coarse one is ten fine ones
 constexpr size_t kPointsEach = 8;              // of a fine patch, where a method is asked
-constexpr int kLiveCells = 48;                 // of the column `first`
 constexpr double kAsked = 0.06, kAskedFirst = 0.1;
 constexpr double kMostUncertain = 0.03;  // standard error of a score that joins the means
 
 std::atomic<bool> stopped = false;
+
+/// What a column asks of volume: "volume[:CELLS[:PASSES]]", or "first[:CELLS]", a picture without photons as
+/// a window in motion shows it. 0 cells for the default.
+struct VolumeColumn {
+  int cells = 0, passes = RenderSettings{}.passes;
+
+  explicit VolumeColumn(const std::string& column) {
+    const auto parts = split(column, ':');
+    const bool first = parts[0] == "first";
+    if (!first && parts[0] != "volume")
+      throw Error({.where = "--columns",
+                   .expected = "volume[:CELLS[:PASSES]], first[:CELLS] or dipole",
+                   .found = "'" + column + "'",
+                   .todo = {}},
+                  Error::Kind::kUsage);
+    if (first) passes = 0, cells = kLiveVolumeCells;
+    if (parts.size() > 1) cells = int(parseNumber(parts[1], "--columns"));
+    if (parts.size() > 2) passes = int(parseNumber(parts[2], "--columns"));
+  }
+  bool isFirst() const { return passes == 0; }
+};
 
 /// 0.12 x 1 x 0.7 with edges of radius 0.04.
 std::shared_ptr<const Mesh> roundedPlate() {
@@ -228,14 +249,15 @@ class Study {
       const Values values = patchMeans(dipoleAt(scene, points));
       return {values, values};
     }
+    const VolumeColumn asked(column);
     std::array<Values, 2> result;
     for (size_t half : {0, 1}) {
-      const bool first = column == "first";
       VolumeSolver solver;
-      solver.update(scene, {.cells = first ? kLiveCells : volumeCells(scene), .seed = half + 1}, progress());
-      for (int pass = 0; !first && pass < RenderSettings{}.passes; ++pass) solver.refine(progress());
+      const int cells = asked.cells > 0 ? asked.cells : volumeCells(scene);
+      solver.update(scene, {.cells = cells, .seed = half + 1}, progress());
+      for (int pass = 0; pass < asked.passes; ++pass) solver.refine(progress());
       result[half] = patchMeans(solver.pointRadiosity(0, points, VolumeSolver::Orders::kAll));
-      if (!first) continue;
+      if (!asked.isFirst()) continue;
       result[1] = result[0];
       break;
     }
@@ -272,7 +294,7 @@ struct Arguments {
   std::string materials = "fig6,marble,skin1,wholemilk,skimmilk,ketchup";
   std::string sizes = "1,3,10,30,100,300", lights = "front,side,behind", columns = "volume,first,dipole";
   double g = 0, seconds = 4;
-  bool onlyReferences = false, made = false;
+  bool onlyReferences = false, noWalks = false, made = false;
 };
 
 using Results = std::map<std::pair<std::string, std::string>, Scores>;  // by column and cell
@@ -359,8 +381,8 @@ class Tables {
   }
 
   void printMisses(const std::string& column) const {
-    const bool first = column == "first";
-    if (column != "volume" && !first) return;
+    if (column == "dipole") return;
+    const bool first = VolumeColumn(column).isFirst();
     const double asked = first ? kAskedFirst : kAsked;
     fmt::print("\n**{}** above {:.0f} %{}, 400 patches:\n\n", column, 100 * asked,
                first ? " from 10 mm up" : "");
@@ -404,6 +426,8 @@ std::vector<Cell> cellsOf(const Arguments& arguments, Study& study) {
 }
 
 void run(const Arguments& arguments) {
+  for (const std::string& column : split(arguments.columns, ','))
+    if (column != "dipole") VolumeColumn{column};
   fs::create_directories(arguments.references);
   Study study(arguments.references, arguments.models, arguments.seconds);
   const std::vector<Cell> cells = cellsOf(arguments, study);
@@ -417,7 +441,8 @@ void run(const Arguments& arguments) {
     }
     for (const std::string& column : split(arguments.columns, ',')) {
       auto scores = study.kept(cell, column);
-      if (!scores && !arguments.made) scores = study.measure(cell, column);
+      const bool measures = !arguments.made && (!arguments.noWalks || fs::exists(study.truthPath(cell)));
+      if (!scores && measures) scores = study.measure(cell, column);
       if (scores) results[{column, cell.name()}] = *scores;
     }
   }
@@ -438,12 +463,14 @@ int main(int argc, char** argv) {
   app.add_option("--materials", a.materials, "names of lychnite materials")->capture_default_str();
   app.add_option("--sizes", a.sizes, "mm")->capture_default_str();
   app.add_option("--lights", a.lights, "front, side, behind")->capture_default_str();
-  app.add_option("--columns", a.columns, "volume, first (its first picture), dipole")->capture_default_str();
+  app.add_option("--columns", a.columns, "volume[:CELLS[:PASSES]], first[:CELLS] (its first picture), dipole")
+      ->capture_default_str();
   app.add_option("--g", a.g, "anisotropy, with the material's sigma_sp")->check(CLI::Range(0.0, 0.95));
   app.add_option("--seconds", a.seconds, "of the walk for a cell, both halves")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_flag("--only-references", a.onlyReferences, "make what is missing of the walk's patches");
+  app.add_flag("--no-walks", a.noWalks, "leave out cells whose patches are not there");
   app.add_flag("--made", a.made, "print the scores that are kept, measure nothing");
   CLI11_PARSE(app, argc, argv);
   std::signal(SIGINT, [](int) { stopped = true; });

@@ -309,7 +309,7 @@ void addMethodFlags(CLI::App& command, Flags& flags) {
   command.add_option("--components", flags.components, "any of multiple,single,surface (default all)");
   command.add_option("--samples", flags.samples,
                      "matched: samples a pixel that faces the light, 8 to 128 (24); volume: passes of "
-                     "photons (4); walk: photons per "
+                     "photons (6); walk: photons per "
                      "pixel (16); adaptive, fixed: single-scattering samples (8)");
   command.add_option(
       "--cells", flags.cells,

@@ -11,7 +11,7 @@ class FollowPace {
   /// How long it is not tried again after that.
   static constexpr double kRetryAfter = 60;
   /// What a picture of a solved scene may take while things move.
-  static constexpr double kPictureSeconds = 0.12;
+  static constexpr double kPictureSeconds = 0.06;
 
   /// A picture of `share` of the full resolution's width took so long.
   void measured(double seconds, double share);

@@ -52,7 +52,7 @@ struct RenderSettings {
   double noise = 0;          ///< walk, volume: relative noise to stop at, 0 = none
   int cells = 0;             ///< volume: along each object's longest side, 8..192; 0 = volumeCells()
   int collisions = 6;        ///< volume: traced before the diffusion equation takes over, 1..64
-  int passes = 4;            ///< volume: of photons, 1..10000
+  int passes = 6;            ///< volume: of photons, 1..10000
   uint64_t seed = 1;
   int threads = 0;  ///< 0 = all cores
   /// Layers beside colour and alpha: multiple, single, surface, depth, normal, lights, radiosity, stderr.

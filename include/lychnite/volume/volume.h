@@ -16,7 +16,7 @@ namespace lychnite {
 struct VolumeSettings {
   int cells = 64;           ///< along each object's longest side, 8..192
   int collisions = 6;       ///< of each photon, traced before the diffusion equation takes over, 1..64
-  int photons = 1 << 17;    ///< starting points on each object's surface, lit or not, in one pass, 1024..2^24
+  int photons = 1 << 16;    ///< of each light onto each object in one pass, 1024..2^24
   double tolerance = 0.01;  ///< relative residual of the diffusion solve, in (0, 1)
   uint64_t seed = 1;
   bool operator==(const VolumeSettings&) const = default;
@@ -25,6 +25,9 @@ struct VolumeSettings {
 /// Cells for a still picture: 64, and 96 where a translucent object is longer than 64 of its reduced mean
 /// free paths (mean of RGB), so that a cell would be longer than one.
 int volumeCells(const Scene& scene);
+
+/// Cells for pictures of what moves (docs/volume.md has the error against the cost).
+inline constexpr int kLiveVolumeCells = 40;
 
 /// What the last update() did and cost.
 struct VolumeStats {

@@ -85,6 +85,19 @@ TEST(BackgroundVolume, PicturesOfAMovingSceneAreFinished) {
   EXPECT_FALSE(volume.newest());
 }
 
+TEST(BackgroundVolume, OnlyACameraThatMovesKeepsThePhotonsInMotion) {
+  BackgroundVolume volume({.threads = 1, .passes = 2, .yields = false});
+  Scene scene = glowing();
+  volume.want(scene, small());
+  after(volume, 2);
+  std::get<OrbitCamera>(scene.camera).azimuth += 30;
+  volume.want(scene, small(), true);
+  EXPECT_EQ(after(volume, 0).passes, 2);
+  std::get<ParallelLight>(scene.lights[0]).azimuth += 1;
+  volume.want(scene, small(), true);
+  EXPECT_EQ(after(volume, 0).passes, 0);
+}
+
 TEST(BackgroundVolume, AnOpenMeshIsAnObstacle) {
   BackgroundVolume volume({.threads = 1, .yields = false});
   volume.want(glowing("disc"), small());

@@ -34,9 +34,9 @@ TEST(FollowPace, PicturesAreAsCoarseAsTheyMustBe) {
   FollowPace pace;
   pace.measured(0.01, 1);
   EXPECT_EQ(pace.share(), 1);
-  pace.measured(0.4, 1);
-  EXPECT_EQ(pace.share(), 0.5);  // 0.1 s
-  pace.measured(0.1, 0.5);
+  pace.measured(3.4 * FollowPace::kPictureSeconds, 1);
+  EXPECT_EQ(pace.share(), 0.5);  // .85 of it
+  pace.measured(0.85 * FollowPace::kPictureSeconds, 0.5);
   EXPECT_EQ(pace.share(), 0.5);
   pace.measured(100, 0.5);
   EXPECT_EQ(pace.share(), 0.25);
