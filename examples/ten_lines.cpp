@@ -1,8 +1,8 @@
 // The README's ten lines.
+#include "lychnite/app/image_maker.h"
 #include "lychnite/image/io.h"
 #include "lychnite/optics/materials.h"
 #include "lychnite/scene/scene_file.h"
-#include "lychnite/technique/renderer.h"
 
 int main() {
   using namespace lychnite;
@@ -11,6 +11,6 @@ int main() {
   scene.objects[0].size = 20;                       // mm, the longest side
   scene.objects[0].material.medium = findMaterial("marble", "material").coefficients;
   scene.lights.push_back(ParallelLight{.azimuth = 150, .elevation = 30});  // from behind
-  Renderer renderer;
-  writePng(renderer.render(scene, RenderSettings{}), "marble.png");
+  ImageMaker maker({});
+  writePng(maker.render(scene, RenderSettings{}), "marble.png");
 }

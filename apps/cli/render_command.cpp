@@ -26,8 +26,7 @@ struct Flags {
   std::string model, size, material, sigma_s, sigma_a, rotate, camera, background, ambient, saveScene;
   std::vector<std::string> lights;
   std::string g, eta, roughness;
-  std::string method = "matched", profile = "dipole", components, aov, resolution = "600x600", samples,
-              singleSamples, map;
+  std::string method, profile, components, aov, resolution = "600x600", samples, singleSamples, map;
   std::string exposure = "0", toneMap = "srgb", time;
   std::string noise, tolerance, interpolation, cells, collisions;
   std::string output, resume, stats, device = "auto";
@@ -139,17 +138,22 @@ RenderSettings settingsFromFlags(const Flags& flags) {
   const Resolution resolution = parseResolution(flags.resolution, "--resolution");
   settings.width = resolution.width;
   settings.height = resolution.height;
-  settings.method = parseMethod(flags.method, "--method");
-  settings.profile = parseProfileKind(flags.profile, "--profile");
+  if (!flags.method.empty()) settings.method = parseMethod(flags.method, "--method");
+  if (!flags.profile.empty()) settings.profile = parseProfileKind(flags.profile, "--profile");
+  // What only light-space methods read asks for ours of them.
+  const bool lightSpace = !flags.profile.empty() || !flags.map.empty() || !flags.interpolation.empty() ||
+                          flags.device != "auto";
+  if (flags.method.empty() && lightSpace) settings.method = Method::kMatched;
   if (!flags.components.empty()) settings.components = parseComponents(flags.components, "--components");
   if (!flags.aov.empty()) settings.aovs = split(flags.aov, ',');
   if (!flags.map.empty()) settings.mapSize = settings.mostMapSize = wholeNumber(flags.map, "--map");
   if (!flags.samples.empty()) {
-    if (settings.method == Method::kWalk)
+    const Method method = resolved(settings);
+    if (method == Method::kWalk)
       settings.samples = parseNumber(flags.samples, "--samples");
-    else if (settings.method == Method::kVolume)
+    else if (method == Method::kVolume)
       settings.passes = wholeNumber(flags.samples, "--samples");
-    else if (settings.method == Method::kMatched)
+    else if (method == Method::kMatched)
       settings.multipleSamples = wholeNumber(flags.samples, "--samples");
     else
       settings.singleSamples = wholeNumber(flags.samples, "--samples");
@@ -303,7 +307,9 @@ void addSceneFlags(CLI::App& command, Flags& flags) {
 
 void addMethodFlags(CLI::App& command, Flags& flags) {
   command.add_option("--method", flags.method,
-                     "matched (default), adaptive, fixed, volume, dipole, hierarchical or walk");
+                     "matched, adaptive, fixed, volume, dipole, hierarchical or walk (default: volume where "
+                     "every object has an inside, else matched; matched with --profile, --map, "
+                     "--interpolation or --device)");
   command.add_option("--profile", flags.profile,
                      "dipole (default), better-dipole, normalized-diffusion or tabulated");
   command.add_option("--components", flags.components, "any of multiple,single,surface (default all)");

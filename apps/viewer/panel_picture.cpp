@@ -187,8 +187,8 @@ void drawSamplerError(PanelContext& context) {
 }  // namespace
 
 const std::vector<Method>& liveMethods() {
-  static const std::vector<Method> methods{Method::kMatched, Method::kAdaptive, Method::kFixed,
-                                           Method::kVolume};
+  static const std::vector<Method> methods{Method::kVolume, Method::kMatched, Method::kAdaptive,
+                                           Method::kFixed};
   return methods;
 }
 
@@ -198,9 +198,10 @@ void drawMethodSection(PanelContext& context) {
   int method = indexOf(liveMethods(), settings.method);
   if (ui.choice(
           "Method",
-          "matched: ours, samples follow the profile at the object's size. adaptive: Yao & Wang 2009. fixed: "
-          "its fixed pattern. volume: photons and diffusion inside the object, solved on the processor while "
-          "the picture rests, with no half-space assumption; matched stands in until then.",
+          "volume: photons and diffusion inside the object, solved on the processor, with no half-space "
+          "assumption; for closed meshes, matched stands in elsewhere and until it is solved. matched: ours, "
+          "samples follow the profile at the object's size. adaptive: Yao & Wang 2009. fixed: its fixed "
+          "pattern.",
           method, methodNames()))
     settings.method = liveMethods()[size_t(method)];
   if (settings.method != Method::kVolume) chooseProfile(ui, settings.profile);

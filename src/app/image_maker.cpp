@@ -19,10 +19,11 @@ ImageMaker::ImageMaker(RendererOptions options)
 Image ImageMaker::render(const Scene& scene, const RenderSettings& settings, const Progress& progress,
                          const ReferenceOptions& reference) {
   Image image;
-  lastWasRealTime_ = !isReference(settings.method) && settings.method != Method::kVolume;
+  const Method method = resolved(settings);
+  lastWasRealTime_ = !isReference(method) && method != Method::kVolume;
   if (lastWasRealTime_) {
     image = renderRealTime(scene, settings, progress);
-  } else if (settings.method == Method::kVolume) {
+  } else if (method == Method::kVolume) {
     image = renderVolume(scene, settings, progress);
   } else {
     ReferenceOptions judge = reference;
@@ -30,7 +31,9 @@ Image ImageMaker::render(const Scene& scene, const RenderSettings& settings, con
     image = renderReference(scene, settings, progress, options_.log, judge);
   }
   image.metadata["lychnite"] = versionText();
-  image.metadata["method"] = methodName(settings.method);
+  const bool fellBack = method == Method::kVolume && lastWasRealTime_;
+  image.metadata["method"] =
+      methodName(fellBack && settings.method == Method::kAuto ? Method::kMatched : method);
   image.metadata["components"] = componentsName(settings.components);
   image.metadata["seed"] = std::to_string(settings.seed);
   image.metadata["scene"] = sceneToToml(scene);

@@ -40,7 +40,7 @@ size_t peakMemoryBytes() {
 std::string statsJson(const Image& image, const RenderSettings& settings, const RenderStats* stats,
                       double seconds) {
   Json json{{"lychnite", versionText()},
-            {"method", methodName(settings.method)},
+            {"method", image.metadata.at("method")},
             {"profile", profileName(settings.profile)},
             {"components", componentsName(settings.components)},
             {"width", image.width()},

@@ -51,7 +51,7 @@ Method parseMethod(std::string_view name, std::string_view where) {
 }
 
 std::string methodName(Method method) {
-  return methodNames()[size_t(method)];
+  return method == Method::kAuto ? "auto" : methodNames()[size_t(method)];
 }
 
 bool isReference(Method method) {
@@ -87,6 +87,11 @@ bool RenderSettings::wants(std::string_view aov) const {
   return std::find(aovs.begin(), aovs.end(), aov) != aovs.end();
 }
 
+Method resolved(const RenderSettings& settings) {
+  if (settings.method != Method::kAuto) return settings.method;
+  return settings.wants("lights") ? Method::kMatched : Method::kVolume;
+}
+
 void validate(const RenderSettings& settings) {
   if (settings.width < 1 || settings.height < 1 || settings.width > 16384 || settings.height > 16384)
     refuse("resolution", "WxH with both from 1 to 16384",
@@ -111,11 +116,12 @@ void validate(const RenderSettings& settings) {
   for (const std::string& aov : settings.aovs) {
     if (std::find(known.begin(), known.end(), aov) == known.end())
       refuse("aov", joined(known), fmt::format("'{}'", aov), suggestion(aov, known));
-    if (aov == "stderr" && settings.method != Method::kWalk && settings.method != Method::kVolume)
+    const Method method = resolved(settings);
+    if (aov == "stderr" && method != Method::kWalk && method != Method::kVolume)
       refuse("aov", "a method with noise (walk, volume) for 'stderr'",
-             fmt::format("'{}'", methodName(settings.method)));
-    if (aov == "lights" && (isReference(settings.method) || settings.method == Method::kVolume))
-      refuse("aov", "a real-time method for 'lights'", fmt::format("'{}'", methodName(settings.method)));
+             fmt::format("'{}'", methodName(method)));
+    if (aov == "lights" && (isReference(method) || method == Method::kVolume))
+      refuse("aov", "a real-time method for 'lights'", fmt::format("'{}'", methodName(method)));
   }
 }
 

@@ -201,7 +201,9 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 namespace {
 
-void checkRequest(const Scene& scene, const RenderSettings& settings) {
+/// The settings with a method that is drawn here.
+RenderSettings checked(const Scene& scene, RenderSettings settings) {
+  if (settings.method == Method::kAuto) settings.method = Method::kMatched;
   validate(scene);
   validate(settings);
   if (isReference(settings.method) || settings.method == Method::kVolume)
@@ -210,12 +212,13 @@ void checkRequest(const Scene& scene, const RenderSettings& settings) {
                  .found = fmt::format("'{}', which renderReference() renders", methodName(settings.method)),
                  .todo = ""},
                 Error::Kind::kUsage);
+  return settings;
 }
 
 }  // namespace
 
-Image Renderer::render(const Scene& scene, const RenderSettings& settings, const Progress& progress) {
-  checkRequest(scene, settings);
+Image Renderer::render(const Scene& scene, const RenderSettings& wish, const Progress& progress) {
+  const RenderSettings settings = checked(scene, wish);
   const double start = seconds();
   impl_->context.makeCurrent();
   impl_->stats = {};
@@ -229,8 +232,8 @@ Image Renderer::render(const Scene& scene, const RenderSettings& settings, const
   return image;
 }
 
-void Renderer::draw(const Scene& scene, const RenderSettings& settings) {
-  checkRequest(scene, settings);
+void Renderer::draw(const Scene& scene, const RenderSettings& wish) {
+  const RenderSettings settings = checked(scene, wish);
   const double start = seconds();
   impl_->context.makeCurrent();
   impl_->stats = {};
@@ -253,9 +256,10 @@ const LightMapPass& RendererTextures::maps(const Renderer& renderer) {
 }
 
 std::optional<SeenSamples> RendererTextures::samplesAt(Renderer& renderer, const Scene& scene,
-                                                       const RenderSettings& settings,
-                                                       const glm::ivec2& pixel, size_t light) {
+                                                       const RenderSettings& wish, const glm::ivec2& pixel,
+                                                       size_t light) {
   Renderer::Impl& all = *renderer.impl_;
+  const RenderSettings settings = checked(scene, wish);
   if (!settings.components.multiple || light >= scene.lights.size()) return {};
   all.context.makeCurrent();
   const Frame frame = makeFrame(scene, settings.width, settings.height);

@@ -40,6 +40,7 @@ struct VolumeSolver::Impl {
   std::shared_ptr<const volume::Shape> shapeOf(const std::shared_ptr<const Mesh>& mesh);
   bool makeBodies(const Scene& scene, const VolumeSettings& next);
   bool makeOrForgetBodies(const Scene& scene, const VolumeSettings& next, const Progress& progress);
+  void refuseLightsInside() const;
   int passes() const;  ///< that the picture is made of
   volume::LightSolver lightSolver() { return {world, lastFlights, *exchange, aim, settings, stats}; }
   void tell();

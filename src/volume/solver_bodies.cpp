@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+
+#include "lychnite/base/error.h"
 #include "volume/interruptible.h"
 #include "volume/solver.h"
 
@@ -55,6 +58,22 @@ bool VolumeSolver::Impl::makeBodies(const Scene& scene, const VolumeSettings& ne
   if (!kept) exchange = std::make_unique<Exchange>(world);
   world.returns = !exchange->empty();
   return true;
+}
+
+/// From inside nothing is lit: surfaces face outwards.
+void VolumeSolver::Impl::refuseLightsInside() const {
+  for (size_t l = 0; l < rays->lights().size(); ++l) {
+    const RayLight& light = rays->lights()[l];
+    if (light.parallel) continue;
+    for (size_t i = 0; i < world.bodies.size(); ++i)
+      if (world.bodies[i] && world.bodies[i]->shape->grid.find(
+                                 world.bodies[i]->toLocal(glm::vec3(light.position))) != Grid::kNone)
+        throw Error({.where = fmt::format("light {}", l + 1),
+                     .expected = "a point light outside all objects",
+                     .found = fmt::format("one inside object {}", i + 1),
+                     .todo = "move it out"},
+                    Error::Kind::kUsage);
+  }
 }
 
 /// makeBodies(), after whose interruption nothing half made is gone on from.

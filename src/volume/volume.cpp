@@ -84,6 +84,7 @@ void VolumeSolver::update(const Scene& scene, const VolumeSettings& settings, co
   const auto start = std::chrono::steady_clock::now();
   const bool stale = all.makeOrForgetBodies(scene, settings, progress);
   all.stats.geometryMs = since(start);
+  all.refuseLightsInside();
   const auto& lights = all.rays->lights();
   all.fields.resize(lights.size());
   if (stale)

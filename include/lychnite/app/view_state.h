@@ -47,7 +47,7 @@ struct ViewState {
   Scene scene;
   /// Width and height are the window's affair. Cells of any size alike, so that `volume` keeps them in
   /// motion.
-  RenderSettings settings{.cells = 64};
+  RenderSettings settings{.method = Method::kVolume, .cells = 64};
   ToneMapping toneMapping;
   Variant variant;
   CompareView compare;

@@ -11,8 +11,11 @@
 namespace lychnite {
 
 /// Every --method: the real-time ones (technique/), the CPU judges (reference/), and the solver (volume/).
-enum class Method { kMatched, kAdaptive, kFixed, kDipole, kHierarchical, kWalk, kVolume };
-Method parseMethod(std::string_view name, std::string_view where);  ///< throws Error with the nearest name
+/// kAuto is the best that whoever renders has for the scene: of ImageMaker see resolved(), and matched where
+/// an object has no inside; of Renderer matched.
+enum class Method { kMatched, kAdaptive, kFixed, kDipole, kHierarchical, kWalk, kVolume, kAuto };
+Method parseMethod(std::string_view name, std::string_view where);  ///< throws Error with the nearest name;
+                                                                    ///< knows no "auto"
 std::string methodName(Method method);
 bool isReference(Method method);  ///< rendered by reference/ on the CPU
 
@@ -33,7 +36,7 @@ struct LatticeConstants {
 /// How a Scene is rendered, the same structure for every method; each reads what concerns it.
 struct RenderSettings {
   int width = 600, height = 600;  ///< 1..16384
-  Method method = Method::kMatched;
+  Method method = Method::kAuto;
   ProfileKind profile = ProfileKind::kDipole;
   Components components;
   int multipleSamples = 24;  ///< matched: at a surface that faces the light, 8..128
@@ -59,6 +62,9 @@ struct RenderSettings {
   std::vector<std::string> aovs;
   bool wants(std::string_view aov) const;
 };
+
+/// What kAuto stands for: volume, or matched where layers are asked for that only it has.
+Method resolved(const RenderSettings& settings);
 
 /// Throws Error (Kind::kUsage) for numbers out of range, aovs unknown or not offered by the method.
 void validate(const RenderSettings& settings);

@@ -58,7 +58,8 @@ class VolumeSolver {
   std::string obstacle(const Scene& scene);
 
   /// Solves for a scene whose obstacle() is "": a picture without photons and noise, of what is new; what is
-  /// not keeps its photons. Throws Error for what validate() refuses or out-of-range settings, Interrupted
+  /// not keeps its photons. Throws Error for what validate() refuses, out-of-range settings and point lights
+  /// inside an object, Interrupted
   /// (what was not done is done by the next update()).
   void update(const Scene& scene, const VolumeSettings& settings, const Progress& progress = {});
 

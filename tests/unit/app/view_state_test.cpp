@@ -56,7 +56,7 @@ TEST(ViewState, TheSubjectIsTheFirstTranslucentObject) {
 TEST(ViewState, TheCommandSaysWhatDiffersFromTheDefaults) {
   ViewState state = sphereView();
   EXPECT_EQ(renderCommand(state, "a.toml", "a.png", 64, 48),
-            "lychnite render a.toml --resolution 64x48 -o a.png");
+            "lychnite render a.toml --resolution 64x48 --method volume --cells 64 -o a.png");
   state.settings.method = Method::kFixed;
   state.settings.profile = ProfileKind::kBetterDipole;
   state.settings.components.surface = false;

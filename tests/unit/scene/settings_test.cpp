@@ -28,6 +28,8 @@ TEST(Settings, MethodNamesRoundTrip) {
     EXPECT_EQ(error.kind(), Error::Kind::kUsage);
   }
   EXPECT_THROW(parseMethod("", "--method"), Error);
+  EXPECT_EQ(methodName(Method::kAuto), "auto");
+  EXPECT_THROW(parseMethod("auto", "--method"), Error) << "it is asked for by no --method";
 }
 
 TEST(Settings, ComponentListsRoundTrip) {
@@ -49,7 +51,11 @@ TEST(Settings, WantsWhatIsListed) {
 TEST(Settings, DefaultsAreValid) {
   RenderSettings settings;
   EXPECT_NO_THROW(validate(settings));
+  EXPECT_EQ(resolved(settings), Method::kVolume);
   settings.aovs = {"multiple", "single", "surface", "depth", "normal", "lights", "radiosity"};
+  EXPECT_NO_THROW(validate(settings));
+  EXPECT_EQ(resolved(settings), Method::kMatched) << "volume does not keep lights apart";
+  settings.aovs = {"stderr"};
   EXPECT_NO_THROW(validate(settings));
   settings = {.method = Method::kWalk};
   settings.aovs = {"stderr", "radiosity"};
@@ -77,7 +83,10 @@ TEST(Settings, OutOfRangeIsNamed) {
       {"noise", [](RenderSettings& s) { s.noise = kNan; }},
       {"threads", [](RenderSettings& s) { s.threads = -1; }},
       {"aov", [](RenderSettings& s) { s.aovs = {"dept"}; }},
-      {"aov", [](RenderSettings& s) { s.aovs = {"stderr"}; }},
+      {"aov",
+       [](RenderSettings& s) {
+         s.aovs = {"stderr", "lights"};
+       }},
       {"aov", [](RenderSettings& s) { s.method = Method::kWalk, s.aovs = {"lights"}; }},
   };
   for (size_t i = 0; i < std::size(cases); ++i) {
