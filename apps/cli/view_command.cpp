@@ -2,6 +2,7 @@
 #include "lychnite/app/specs.h"
 #include "lychnite/base/error.h"
 #include "lychnite/base/units.h"
+#include "lychnite/scene/settings.h"
 #include "terminal.h"
 #include "viewer/viewer.h"
 
@@ -9,7 +10,7 @@ namespace lychnite::cli {
 namespace {
 
 struct Flags {
-  std::string model = "figurine", size, screenshot, play, window;
+  std::string model = "figurine", size, method, screenshot, play, window;
   double scale = 0;
   int threads = 0;
   bool debug = false, verbose = false;
@@ -26,6 +27,15 @@ int view(const Flags& flags) {
   if (options.size && !(*options.size > 0))
     throw Error({.where = "--size", .expected = "a length above zero", .found = flags.size, .todo = ""},
                 Error::Kind::kUsage);
+  if (!flags.method.empty()) {
+    options.method = parseMethod(flags.method, "--method");
+    if (isReference(*options.method))
+      throw Error({.where = "--method",
+                   .expected = "volume, matched, adaptive or fixed",
+                   .found = "'" + flags.method + "'",
+                   .todo = "the walk and the dipole are found under Compare in the window"},
+                  Error::Kind::kUsage);
+  }
   if (!flags.window.empty()) {
     const Resolution resolution = parseResolution(flags.window, "--window");
     options.width = resolution.width;
@@ -47,6 +57,7 @@ void addView(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("view", "Open a window on a model or scene");
   command->add_option("MODEL", flags->model, "mesh file, built-in model or scene.toml (default figurine)");
   command->add_option("--size", flags->size, "true size: longest side of the bounding box, with a unit");
+  command->add_option("--method", flags->method, "volume (default), matched, adaptive or fixed");
   command->add_option("--window", flags->window, "WxH of the window at scale 1 (as it was last time)");
   command->add_option("--scale", flags->scale, "of everything in the window (the display's)")
       ->check(CLI::Range(0.5, 4.0));

@@ -199,6 +199,7 @@ void Viewer::start() {
                  .todo = ""});
   for (const SessionMessage& message : messages) session_.say(message.text, message.problem);
   if (options_.size) setSubjectSize(session_.state().scene, *options_.size);
+  if (options_.method) session_.state().settings.method = *options_.method;
   session_.state().ruler = preferences_.ruler;
   if (fs::path(options_.model).has_extension()) preferences_.addRecent(fs::absolute(options_.model).string());
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "lychnite/base/log.h"
+#include "lychnite/scene/settings.h"
 
 namespace lychnite::viewer {
 
@@ -13,6 +14,7 @@ struct ViewOptions {
   std::filesystem::path screenshot;  ///< write the window here once the picture is whole, and quit
   std::filesystem::path play;        ///< an input script to play instead of a person
   std::optional<double> size;        ///< mm, of the model's longest side
+  std::optional<Method> method;      ///< real-time or volume; empty: volume
   std::optional<double> scale;       ///< of everything in the window; empty: the display's
   int width = 0, height = 0;         ///< of the window at scale 1; 0: as it was last time
   int threads = 0;                   ///< of the background walk, 0 = one for two cores, half of them for more

@@ -125,11 +125,12 @@ class ViewSoak : public testing::Test {
 
   Result play(int frames) {
     scratch_.write("script.txt", randomScript(frames));
-    return scratch_.watch({"view", "stone", "--debug", "--window", "480x400", "--play", "script.txt"},
-                          {{"DISPLAY", (*display_)->name()},
-                           {"WAYLAND_DISPLAY", ""},
-                           {"XDG_CONFIG_HOME", (scratch_ / "config").string()}},
-                          [this](size_t bytes) { look(double(bytes)); });
+    return scratch_.watch(
+        {"view", "stone", "--method", "matched", "--debug", "--window", "480x400", "--play", "script.txt"},
+        {{"DISPLAY", (*display_)->name()},
+         {"WAYLAND_DISPLAY", ""},
+         {"XDG_CONFIG_HOME", (scratch_ / "config").string()}},
+        [this](size_t bytes) { look(double(bytes)); });
   }
 
   std::vector<std::string> pictures() const {

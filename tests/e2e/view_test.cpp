@@ -37,9 +37,11 @@ class View : public testing::Test {
     return scratch_.run(arguments, environment);
   }
 
-  Result play(const std::string& model, const std::string& script) const {
+  /// By a method that is drawn at once; volume has tests of its own.
+  Result play(const std::string& model, const std::string& script,
+              const std::string& method = "matched") const {
     scratch_.write("script.txt", script);
-    return view({model, "--play", "script.txt"});
+    return view({model, "--method", method, "--play", "script.txt"});
   }
 
   Image shot(const std::string& name) const { return readImage(scratch_ / name); }
@@ -71,7 +73,7 @@ double difference(const Image& a, const Image& b, const Part& part = {}) {
 }
 
 TEST_F(View, ScreenshotIsTheFirstWholePicture) {
-  const Result result = view({"stone", "--screenshot", "window.png"});
+  const Result result = view({"stone", "--method", "matched", "--screenshot", "window.png"});
   ASSERT_EQ(result.status, 0) << result.err;
   const Image window = shot("window.png");
   ASSERT_EQ(window.width(), kWidth);
@@ -87,7 +89,7 @@ TEST_F(View, ASavedSceneRendersToTheSamePicture) {
       "stone", "wait rest\nkey g\nwait rest\nscreenshot window.png\nkey ctrl+s\nkey ctrl+p\nwait rest\n");
   ASSERT_EQ(result.status, 0) << result.err;
   const Result rendered =
-      scratch_.run({"render", "stone.toml", "--resolution",
+      scratch_.run({"render", "stone.toml", "--method", "matched", "--resolution",
                     fmt::format("{}x{}", kPictureWidth, kPictureHeight), "-o", "again.png"});
   ASSERT_EQ(rendered.status, 0) << rendered.err;
   EXPECT_EQ(scratch_.read("stone.png"), scratch_.read("again.png"));
@@ -102,6 +104,19 @@ TEST_F(View, ASavedSceneRendersToTheSamePicture) {
             std::abs(255 * double(srgbFromLinear(window.rgb(size_t(y) * kWidth + size_t(x))[c])) -
                      255 * double(srgbFromLinear(again.rgb(size_t(y) * kPictureWidth + size_t(x))[c]))));
   EXPECT_LE(worst, 1.01);
+}
+
+TEST_F(View, VolumeIsWhatItShowsAndSavesUnasked) {
+  scratch_.write("script.txt", "wait rest\nkey ctrl+s\nkey ctrl+p\nwait rest\n");
+  const Result result = view({"stone", "--play", "script.txt"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Result rendered =
+      scratch_.run({"render", "stone.toml", "--cells", "64", "--resolution",
+                    fmt::format("{}x{}", kPictureWidth, kPictureHeight), "-o", "again.png"});
+  ASSERT_EQ(rendered.status, 0) << rendered.err;
+  const Image saved = shot("stone.png"), again = shot("again.png");
+  EXPECT_EQ(saved.metadata.at("method"), "volume");
+  for (const char* channel : {"R", "G", "B"}) EXPECT_EQ(saved.channel(channel), again.channel(channel));
 }
 
 TEST_F(View, DraggingTheSizeChangesTheLightAndCanBeUndone) {
@@ -137,7 +152,7 @@ TEST_F(View, DroppedFilesAreOpenedAndBadOnesAreNot) {
   EXPECT_EQ(readScene(scratch_ / "tetra.toml").objects[0].model, "tetra.off");
   // What was opened is remembered, and the saved scene opens again.
   EXPECT_NE(scratch_.read("config/lychnite/viewer.toml").find("tetra.off"), std::string::npos);
-  ASSERT_EQ(view({"tetra.toml", "--screenshot", "again.png"}).status, 0);
+  ASSERT_EQ(view({"tetra.toml", "--method", "matched", "--screenshot", "again.png"}).status, 0);
   EXPECT_LT(difference(shot("tetra.png"), shot("again.png"), {0, 0, 1, 0.8}), 0.5);  // above the message
 }
 
@@ -239,7 +254,7 @@ TEST_F(View, AnimationsPlayAndAreKeptByTheScene) {
   EXPECT_NEAR(kept.time, 1, 0.1);  // 60 frames
   const Result rendered =
       scratch_.run({"render", "box.toml", "--resolution", fmt::format("{}x{}", kPictureWidth, kPictureHeight),
-                    "-o", "rendered.png"});
+                    "--method", "matched", "-o", "rendered.png"});
   ASSERT_EQ(rendered.status, 0) << rendered.err;
   EXPECT_EQ(scratch_.read("box.png"), scratch_.read("rendered.png"));
 }
@@ -286,14 +301,14 @@ TEST_F(View, ResizesMinimisesAndComesBack) {
 TEST_F(View, BrokenSettingsAreSetAside) {
   std::filesystem::create_directories(scratch_ / "config/lychnite");
   scratch_.write("config/lychnite/viewer.toml", "window_width = oops");
-  const Result result = view({"sphere", "--screenshot", "window.png"});
+  const Result result = view({"sphere", "--method", "matched", "--screenshot", "window.png"});
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_NE(result.err.find("viewer.toml.broken"), std::string::npos) << result.err;
   EXPECT_TRUE(std::filesystem::exists(scratch_ / "config/lychnite/viewer.toml.broken"));
 }
 
 TEST_F(View, TwiceTheScaleIsTwiceAsLarge) {
-  const Result result = view({"sphere", "--scale", "2", "--screenshot", "window.png"});
+  const Result result = view({"sphere", "--method", "matched", "--scale", "2", "--screenshot", "window.png"});
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_EQ(shot("window.png").width(), 2 * kWidth);
 }
