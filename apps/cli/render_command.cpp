@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "commands.h"
+#include "lychnite/app/background.h"
 #include "lychnite/app/image_maker.h"
 #include "lychnite/app/report.h"
 #include "lychnite/app/specs.h"
@@ -213,13 +214,11 @@ void checkOutputs(const Flags& flags) {
 }
 
 void write(Image& image, const fs::path& path, const Flags& flags) {
-  image.metadata["exposure"] = flags.exposure;
-  if (isExr(path)) return writeExr(image, path);
-  writePng(image, path,
-           {.toneMapping = {.curve = parseToneCurve(flags.toneMap, "--tone-map"),
-                            .exposure = parseNumber(flags.exposure, "--exposure")},
-            .bits = flags.bits,
-            .alpha = flags.transparent});
+  savePicture(image, path,
+              {.toneMapping = {.curve = parseToneCurve(flags.toneMap, "--tone-map"),
+                               .exposure = parseNumber(flags.exposure, "--exposure")},
+               .bits = flags.bits,
+               .alpha = flags.transparent});
 }
 
 /// The part that frame `index` of `frames` is of the whole, reported to `whole`.
@@ -270,10 +269,10 @@ int render(const Flags& flags) {
     finishProgress();
     const fs::path output =
         sweep.frames > 1 ? numbered(flags.output, i, sweep.frames) : fs::path(flags.output);
-    write(image, output, flags);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (!flags.stats.empty())
-      writeTextAtomically(flags.stats, statsJson(image, settings, maker.stats(), seconds));
+    const std::string stats = statsJson(image, settings, maker.stats(), seconds);
+    write(image, output, flags);
+    if (!flags.stats.empty()) writeTextAtomically(flags.stats, stats);
     if (image.metadata.contains("interrupted")) {
       fmt::print(stderr, "lychnite: interrupted; {} holds what there was\n", output.string());
       return 130;

@@ -14,6 +14,8 @@ namespace lychnite {
 
 void savePicture(Image& image, const std::filesystem::path& path, const PngOptions& png) {
   image.metadata["exposure"] = fmt::format("{}", png.toneMapping.exposure);
+  std::erase_if(image.metadata,
+                [](const auto& entry) { return entry.first == "seconds" || entry.first.ends_with("_ms"); });
   if (path.extension() == ".exr")
     writeExr(image, path);
   else

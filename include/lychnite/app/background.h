@@ -152,7 +152,8 @@ class PictureWriter {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Writes EXR or PNG by the path's extension, with the exposure among the metadata.
+/// Writes EXR or PNG by the path's extension, with the exposure among the metadata and without timings
+/// ("seconds", "..._ms"), so that the same picture is the same file.
 void savePicture(Image& image, const std::filesystem::path& path, const PngOptions& png);
 
 }  // namespace lychnite
