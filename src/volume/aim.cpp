@@ -8,8 +8,6 @@ namespace lychnite::volume {
 namespace {
 
 constexpr double kTolerance = 0.1;  // of the solve: what is looked for is where, not how much
-// Of the mean, that everything counts for at least: light takes ways that diffusion does not know.
-constexpr float kLeast = 0.02f;
 
 /// Of each node: what a unit of the square of a photon's flux that leaves there adds to the picture's, and
 /// how much of the picture it is.
@@ -52,7 +50,6 @@ std::vector<float> importance(const Body& body, const std::vector<Lanes>& square
   std::vector<float> result(squares.size(), 0), depth(squares.size(), 0);
   for (const auto& sample : surface.samples())
     if (sample.cell != Grid::kNone) depth[sample.node] += sample.area * sample.depth;
-  double sum = 0, area = 0;
   for (size_t n = 0; n < result.size(); ++n) {
     const auto& node = surface.nodes()[n];
     if (node.cell == Grid::kNone || !(node.area > 0)) continue;
@@ -63,11 +60,7 @@ std::vector<float> importance(const Body& body, const std::vector<Lanes>& square
                                                 float(diffusion.staying(z, d)) * phi[node.cell][c]);
     }
     result[n] = std::sqrt(std::max(0.0f, result[n]));
-    sum += double(result[n] * node.area);
-    area += double(node.area);
   }
-  const float least = area > 0 ? kLeast * float(sum / area) : 0;
-  for (float& r : result) r = std::max({r, least, 1e-30f});
   return result;
 }
 

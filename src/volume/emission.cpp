@@ -20,6 +20,10 @@ constexpr double kStep[5] = {0.8812714616335696, 0.7766393890897682, 0.684430129
 // Of what a node would get, where its one look at the light is blocked: parts of it may not be.
 constexpr float kLeastDensity = 0.2f;
 
+// Of the photons, that start as light enters whatever counts: light also takes ways that an aim does not
+// know.
+constexpr double kUnaimed = 0.2;
+
 constexpr double kChannelStep = 0.41421356237309503;  // of a recurrence of its own
 
 float turn(double x) {
@@ -33,11 +37,15 @@ Emission::Emission(const Surface& surface, const Entering& entering, const std::
   const auto& samples = surface.samples();
   const auto& nodes = surface.nodes();
   std::vector<double> density(nodes.size(), 0);
-  double total = 0;
+  double total = 0, aimed = 0, all = 0;
+  for (size_t n = 0; n < importance.size(); ++n) {
+    aimed += double(entering.flux[n]) * double(importance[n]);
+    all += double(entering.flux[n]);
+  }
   for (size_t n = 0; n < nodes.size(); ++n) {
     if (!(nodes[n].area > 0)) continue;
     density[n] = double(std::fmax(entering.flux[n], kLeastDensity * entering.unshaded[n]) / nodes[n].area);
-    if (!importance.empty()) density[n] *= double(importance[n]);
+    if (aimed > 0) density[n] *= kUnaimed + (1 - kUnaimed) * double(importance[n]) * all / aimed;
   }
   for (const auto& sample : samples) total += double(sample.area) * density[sample.node];
   if (!(total > 0)) return;

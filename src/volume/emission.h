@@ -13,8 +13,8 @@ struct Entering {
 };
 std::vector<Entering> enteringFlux(const World& world, const RayLight& light);
 
-/// Where photons of a light start on a body: as many on an area as light enters it times what a photon there
-/// counts for (`importance` of each node, above 0; empty for 1).
+/// Where photons of a light start on a body: as many on an area as light enters it, most of them times what a
+/// photon there counts for (`importance` of each node, up to a factor; empty for 1).
 class Emission {
  public:
   Emission() = default;
