@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numeric>
 
 #include "lychnite/base/error.h"
@@ -116,11 +117,28 @@ TEST(SurfaceWalk, IsTheSameOnAnyThreadsAndItsHalvesDiffer) {
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], 0.05 * a[c]);
 }
 
+TEST(SurfaceWalk, NoiseFallsWithTheRootOfThePhotonsAndStopsIt) {
+  const Scene scene = sceneOf("sphere", "fig6", 10);
+  double squares[2] = {0, 0};
+  for (uint64_t seed = 1; seed <= 3; ++seed)
+    for (const int times : {1, 4}) {
+      const double noise =
+          surfaceWalk(scene, {.patches = 300, .photons = 24576.0 * times, .seed = seed}).noise;
+      squares[times / 4] += noise * noise;
+    }
+  EXPECT_NEAR(squares[0] / squares[1], 4, 0.8);  // 900 values each: good to some 8 % of a ratio
+  const double wished = 0.7 * std::sqrt(squares[1] / 3);
+  const SurfaceWalkResult walk = surfaceWalk(scene, {.patches = 300, .photons = 1, .noise = wished});
+  EXPECT_LE(walk.noise, wished);
+  EXPECT_GT(walk.noise, 0.7 * wished);
+}
+
 TEST(SurfaceWalk, RefusesNumbersOutOfRange) {
   const Scene scene = sceneOf("sphere", "fig6", 10);
   EXPECT_THROW(surfaceWalk(scene, {.patches = 0}), Error);
   EXPECT_THROW(surfaceWalk(scene, {.photons = 0}), Error);
   EXPECT_THROW(surfaceWalk(scene, {.timeLimit = -1}), Error);
+  EXPECT_THROW(surfaceWalk(scene, {.noise = -1}), Error);
 }
 
 }  // namespace
