@@ -20,6 +20,7 @@ namespace lychnite::accuracy {
 namespace {
 
 constexpr int kPixels = 80, kSheetPixels = 120, kWidePixels = 160;  // of pictures, each way
+constexpr double kMostUncertainSurface = 0.03, kMostUncertainPicture = 0.1;
 
 class Study {
  public:
@@ -34,25 +35,31 @@ class Study {
     for (const std::string& shape : options.choice.shapes) shapes_.at(shape);
   }
 
-  /// Makes what is missing, as far as that is wished.
+  /// Makes what is missing, as far as that is wished. What is there is not in the time that is left.
   void make(const std::vector<Cell>& cells) {
-    for (size_t i = 0; i < cells.size(); ++i) {
+    std::vector<Cell> missing;
+    for (const Cell& cell : cells)
+      if (!isDone(cell)) missing.push_back(cell);
+    for (size_t i = 0; i < missing.size(); ++i) {
       const Progress inner([&, i](const Progress::Update& update) {
-        const double fraction = (double(i) + update.fraction) / double(cells.size());
-        return terminal_.update({cells[i].name(), fraction, fmt::format("{}/{}", i + 1, cells.size())});
+        const double fraction = (double(i) + update.fraction) / double(missing.size());
+        return terminal_.update({missing[i].name(), fraction, fmt::format("{}/{}", i + 1, missing.size())});
       });
-      if (options_.make == Make::kAll || options_.make == Make::kReferences) provide(cells[i], inner);
+      inner.check({"", 0, ""});
+      if (lacksReference(missing[i])) provide(missing[i], inner);
       if (options_.make == Make::kReferences) continue;
-      for (const Column& column : columns_) score(cells[i], column, inner);
+      for (const Column& column : columns_) score(missing[i], column, inner);
     }
     cli::finishProgress();
   }
 
   void print() const {
-    TableNames names{options_.columns, {fmt::format("{0} x {0} pixels", kPixels)}};
-    if (onSurface())
-      names.resolutions = {fmt::format("{} patches", kPatches), fmt::format("{} patches", kCoarsePatches)};
-    printTables(options_.choice, names, results_);
+    TablePlan plan{options_.columns, {fmt::format("{0} x {0} pixels", kPixels)}, kMostUncertainPicture};
+    if (onSurface()) {
+      plan.resolutions = {fmt::format("{} patches", kPatches), fmt::format("{} patches", kCoarsePatches)};
+      plan.mostUncertain = kMostUncertainSurface;
+    }
+    printTables(options_.choice, plan, results_);
   }
 
   /// One picture for each shape: the walk and the columns.
@@ -80,21 +87,41 @@ class Study {
   bool onSurface() const { return options_.unit == Unit::kSurface; }
   int pixels() const { return onSurface() ? 0 : kPixels; }
 
+  /// Whether it is missing, or is to be made again.
+  bool lacksReference(const Cell& cell) const {
+    return !references_.madeAt(cell, pixels()) ||
+           (options_.renew && onSurface() && references_.isTooNoisy(cell));
+  }
+
+  /// Takes the scores that are kept; true where nothing is missing or nothing may be made.
+  bool isDone(const Cell& cell) {
+    const bool makesReferences = options_.make == Make::kAll || options_.make == Make::kReferences;
+    const bool lacking = options_.make != Make::kNothing && lacksReference(cell);
+    if (options_.make == Make::kReferences) return !lacking;
+    bool all = true;
+    for (const Column& column : columns_) {
+      const auto scores = keptScores(cell, column);
+      if (scores) results_[{column.name, cell}] = *scores;
+      all = all && scores;
+    }
+    if (options_.make == Make::kNothing || (lacking && !makesReferences)) return true;
+    return all && !lacking;
+  }
+
   void provide(const Cell& cell, const Progress& progress) {
     if (onSurface())
-      references_.provideSurface(cell, options_.renew, progress);
+      references_.makeSurface(cell, progress);
     else
       references_.picture(cell, kPixels, progress);
   }
 
   void score(const Cell& cell, const Column& column, const Progress& progress) {
     auto scores = keptScores(cell, column);
-    const bool measures = options_.make != Make::kNothing && references_.madeAt(cell, pixels());
-    if (!scores && measures) {
+    if (!scores) {
       scores = onSurface() ? surfaceScores(cell, column, progress) : pictureScores(cell, column, progress);
       keepScores(cell, column, *scores);
     }
-    if (scores) results_[{column.name, cell}] = *scores;
+    results_[{column.name, cell}] = *scores;
   }
 
   Scores surfaceScores(const Cell& cell, const Column& column, const Progress& progress) {

@@ -55,13 +55,7 @@ void References::makeSurface(const Cell& cell, const Progress& progress) const {
   writeExr(image, surfacePath(cell));
 }
 
-void References::provideSurface(const Cell& cell, bool renew, const Progress& progress) {
-  if (!madeAt(cell, 0) || (renew && noiseOf(surface(cell, progress)) > kTooNoisy * budget_.noise))
-    makeSurface(cell, progress);
-}
-
-Halves References::surface(const Cell& cell, const Progress& progress) {
-  if (!madeAt(cell, 0)) makeSurface(cell, progress);
+Halves References::readSurface(const Cell& cell) const {
   const Image image = readImage(surfacePath(cell));
   if (image.width() != int(kPatches) || image.height() != 2)
     throw Error({.where = surfacePath(cell).string(),
@@ -72,6 +66,15 @@ Halves References::surface(const Cell& cell, const Progress& progress) {
   for (size_t half : {0, 1})
     for (size_t i = 0; i < kPatches; ++i) halves[half].push_back(image.rgb(half * kPatches + i));
   return halves;
+}
+
+bool References::isTooNoisy(const Cell& cell) const {
+  return !madeAt(cell, 0) || noiseOf(readSurface(cell)) > kTooNoisy * budget_.noise;
+}
+
+Halves References::surface(const Cell& cell, const Progress& progress) {
+  if (!madeAt(cell, 0)) makeSurface(cell, progress);
+  return readSurface(cell);
 }
 
 std::filesystem::path References::picturePath(const Cell& cell, int pixels, int half) const {

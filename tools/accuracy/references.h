@@ -36,15 +36,17 @@ class References {
 
   /// Radiosity of kPatches patches. Throws Interrupted.
   Halves surface(const Cell& cell, const Progress& progress);
-  /// Makes a surface's truth that is missing or, where `renew`, half as noisy again as the budget asks for.
-  void provideSurface(const Cell& cell, bool renew, const Progress& progress);
+  /// Whether a surface's truth is half as noisy again as the budget asks for, or is not there.
+  bool isTooNoisy(const Cell& cell) const;
+  /// Makes a surface's truth, whether it is there or not. Throws Interrupted.
+  void makeSurface(const Cell& cell, const Progress& progress) const;
   /// Throws Interrupted.
   PictureTruth picture(const Cell& cell, int pixels, const Progress& progress);
 
  private:
   std::filesystem::path surfacePath(const Cell& cell) const { return folder_ / (cell.name() + ".exr"); }
   std::filesystem::path picturePath(const Cell& cell, int pixels, int half) const;
-  void makeSurface(const Cell& cell, const Progress& progress) const;
+  Halves readSurface(const Cell& cell) const;
   Image pictureHalf(const Cell& cell, int pixels, int half, const Progress& progress);
 
   std::filesystem::path folder_;

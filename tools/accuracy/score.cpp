@@ -26,9 +26,9 @@ Score scoreOf(const Halves& model, const Halves& truth) {
     variance += deviation * deviation;  // the channels share their photons
   }
   const double count = 3 * double(points), mean = told / count;
-  const double rmse = std::sqrt(std::max(one / count, 0.0));
+  const double rmse = std::sqrt(std::max(one / count, 0.0)), deviation = std::sqrt(variance) / count;
   return {.rmse = rmse / mean,
-          .error = std::sqrt(variance) / count / (2 * std::max(rmse, 1e-3 * mean)) / mean,
+          .error = deviation > 0 ? deviation / std::max(2 * rmse, std::sqrt(deviation)) / mean : 0,
           .quiet = std::sqrt(std::max(quiet / count, 0.0)) / mean,
           .bias = sum / told - 1};
 }

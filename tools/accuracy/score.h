@@ -10,7 +10,7 @@ namespace lychnite::accuracy {
 /// How far a model is from the truth, RGB together, relative to the mean of the truth.
 struct Score {
   double rmse = 0;   ///< of one picture, with the noise that it has
-  double error = 0;  ///< standard error that the truth's noise leaves in it
+  double error = 0;  ///< standard error that the truth's noise leaves in it; what it may be where it is 0
   double quiet = 0;  ///< rmse without the model's own noise, where it is told twice
   double bias = 0;   ///< of the mean
 };

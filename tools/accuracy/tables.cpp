@@ -9,21 +9,20 @@ namespace lychnite::accuracy {
 namespace {
 
 constexpr double kAsked = 0.06, kAskedFirst = 0.1, kAskedFirstFrom = 10;
-constexpr double kMostUncertain = 0.03;  // standard error of a score that joins the means
 
 class Tables {
  public:
-  Tables(const Choice& choice, const TableNames& names, const Results& results)
-      : choice_(choice), names_(names), results_(results) {}
+  Tables(const Choice& choice, const TablePlan& plan, const Results& results)
+      : choice_(choice), plan_(plan), results_(results) {}
 
   void print() const {
     fmt::print("Relative RMSE in %. Means: one picture [without its own noise] (worst cell, cells).\n");
-    for (const std::string& column : names_.columns)
-      for (size_t r = names_.resolutions.size(); r-- > 0;) printMeans(column, r);
+    for (const std::string& column : plan_.columns)
+      for (size_t r = plan_.resolutions.size(); r-- > 0;) printMeans(column, r);
     fmt::print("\nEvery cell: one picture ± what the truth's noise leaves (error of the mean), {}.\n",
                fmt::join(choice_.lights, " / "));
-    for (const std::string& column : names_.columns) printCells(column);
-    for (const std::string& column : names_.columns) printMisses(column);
+    for (const std::string& column : plan_.columns) printCells(column);
+    for (const std::string& column : plan_.columns) printMisses(column);
   }
 
  private:
@@ -47,7 +46,7 @@ class Tables {
     double sum = 0, quiet = 0, worst = 0, count = 0;
     for (const auto& [key, scores] : results_) {
       const Score& s = scores[resolution];
-      if (key.first != column || !holds(key.second) || s.error > kMostUncertain) continue;
+      if (key.first != column || !holds(key.second) || s.error > plan_.mostUncertain) continue;
       sum += s.rmse;
       quiet += s.quiet;
       worst = std::max(worst, s.rmse);
@@ -59,7 +58,7 @@ class Tables {
   }
 
   void printMeans(const std::string& column, size_t resolution) const {
-    fmt::print("\n**{}**, {}\n\n", column, names_.resolutions[resolution]);
+    fmt::print("\n**{}**, {}\n\n", column, plan_.resolutions[resolution]);
     printHead("| |", " all |");
     std::vector<std::string> lights = choice_.lights;
     lights.emplace_back("all");
@@ -89,7 +88,7 @@ class Tables {
   }
 
   void printCells(const std::string& column) const {
-    fmt::print("\n**{}**, {}\n\n", column, names_.resolutions.back());
+    fmt::print("\n**{}**, {}\n\n", column, plan_.resolutions.back());
     printHead("| shape | material |", "");
     for (const double g : choice_.gs)
       for (const std::string& shape : choice_.shapes)
@@ -110,7 +109,7 @@ class Tables {
     const bool first = column.starts_with("first");
     const double asked = first ? kAskedFirst : kAsked;
     fmt::print("\n**{}** above {:.0f} %{}, {}:\n\n", column, 100 * asked,
-               first ? fmt::format(" from {} mm up", kAskedFirstFrom) : "", names_.resolutions.back());
+               first ? fmt::format(" from {} mm up", kAskedFirstFrom) : "", plan_.resolutions.back());
     size_t found = 0, all = 0;
     for (const auto& [key, scores] : results_) {
       if (key.first != column || (first && key.second.size < kAskedFirstFrom)) continue;
@@ -125,14 +124,14 @@ class Tables {
   }
 
   const Choice& choice_;
-  const TableNames& names_;
+  const TablePlan& plan_;
   const Results& results_;
 };
 
 }  // namespace
 
-void printTables(const Choice& choice, const TableNames& names, const Results& results) {
-  Tables(choice, names, results).print();
+void printTables(const Choice& choice, const TablePlan& plan, const Results& results) {
+  Tables(choice, plan, results).print();
 }
 
 }  // namespace lychnite::accuracy

@@ -14,14 +14,15 @@ namespace lychnite::accuracy {
 using Scores = std::vector<Score>;
 using Results = std::map<std::pair<std::string, Cell>, Scores>;  ///< by column and cell
 
-struct TableNames {
+struct TablePlan {
   std::vector<std::string> columns;
   std::vector<std::string> resolutions;  ///< as many as Scores, e.g. "400 patches"
+  double mostUncertain = 0;              ///< standard error of a score that joins the means
 };
 
 /// Prints (markdown) for each column and resolution the means and worst cells by light and size, then for
 /// each column every cell by the coarsest resolution, and those above what is asked: 6 %, and 10 % from 10 mm
 /// up for columns "first...".
-void printTables(const Choice& choice, const TableNames& names, const Results& results);
+void printTables(const Choice& choice, const TablePlan& plan, const Results& results);
 
 }  // namespace lychnite::accuracy
