@@ -69,7 +69,9 @@ std::optional<Options> parseOptions(int argc, char** argv) {
   app.add_option("--seconds", options.seconds, "most time of a reference, both halves (20)");
   app.add_option("--noise", options.noise,
                  "of a reference's half that is enough, standard error over mean (surface .1, picture .06)");
-  app.add_flag("--renew", options.renew, "surface: make references again that are noisier than 1.5 of that");
+  app.add_flag(
+      "--renew", options.renew,
+      "surface: make references again that are noisier than 1.5 of that and had less than --seconds");
   app.add_option("--threads", options.threads, "0 for all cores")->capture_default_str();
   auto* references =
       app.add_flag("--only-references", onlyReferences, "make the missing references, nothing else");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <vector>
 
 #include "lychnite/base/error.h"
@@ -69,7 +70,12 @@ Halves References::readSurface(const Cell& cell) const {
 }
 
 bool References::isTooNoisy(const Cell& cell) const {
-  return !madeAt(cell, 0) || noiseOf(readSurface(cell)) > kTooNoisy * budget_.noise;
+  if (!madeAt(cell, 0)) return true;
+  const Image image = readImage(surfacePath(cell));
+  const auto seconds = image.metadata.find("seconds");
+  if (seconds != image.metadata.end() && std::strtod(seconds->second.c_str(), nullptr) >= budget_.seconds)
+    return false;
+  return noiseOf(readSurface(cell)) > kTooNoisy * budget_.noise;
 }
 
 Halves References::surface(const Cell& cell, const Progress& progress) {

@@ -36,7 +36,8 @@ class References {
 
   /// Radiosity of kPatches patches. Throws Interrupted.
   Halves surface(const Cell& cell, const Progress& progress);
-  /// Whether a surface's truth is half as noisy again as the budget asks for, or is not there.
+  /// Whether a surface's truth is not there, or half as noisy again as the budget asks for and made in less
+  /// than its time.
   bool isTooNoisy(const Cell& cell) const;
   /// Makes a surface's truth, whether it is there or not. Throws Interrupted.
   void makeSurface(const Cell& cell, const Progress& progress) const;
