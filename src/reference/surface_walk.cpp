@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 
 #include "lychnite/base/error.h"
@@ -34,8 +35,8 @@ class SurfaceWalk {
   }
 
   SurfaceWalkResult run(const Progress& progress) {
-    while (!emission_.empty() && made() < 1) {
-      progress.check({"surface walk", made(), fmt::format("{:.3g} photons", double(blocks_ * kBlock))});
+    for (double fraction = 0; !emission_.empty() && fraction < 1; fraction = made()) {
+      progress.check({"surface walk", fraction, fmt::format("{:.3g} photons", double(blocks_ * kBlock))});
       traceWave();
     }
     return result();
@@ -47,9 +48,26 @@ class SurfaceWalk {
   }
   /// Of what is to be done.
   double made() const {
-    if (blocks_ == 0) return 0;
-    return settings_.timeLimit > 0 ? seconds() / settings_.timeLimit
-                                   : double(blocks_ * kBlock) / settings_.photons;
+    if (settings_.timeLimit <= 0 && settings_.noise <= 0) return double(blocks_ * kBlock) / settings_.photons;
+    double made = settings_.timeLimit > 0 ? seconds() / settings_.timeLimit : 0;
+    if (settings_.noise <= 0) return made;
+    const double now = noise();
+    return std::max(made, now > 0 ? std::pow(settings_.noise / now, 2) : 1);
+  }
+  /// Of a half. By radiosity, which objects of different area have in common.
+  double noise() const {
+    double squares = 0, sum = 0, count = 0;
+    for (size_t i = 0; i < samplers_.size(); ++i) {
+      if (!samplers_[i]) continue;
+      const double perArea = 1 / samplers_[i]->area();
+      for (size_t p = 0; p < settings_.patches; ++p) {
+        const Rgb a = perArea * flux_[0][i][p], b = perArea * flux_[1][i][p], d = a - b;
+        squares += 0.5 * (d.x * d.x + d.y * d.y + d.z * d.z);
+        sum += 0.5 * (a.x + a.y + a.z + b.x + b.y + b.z);
+        count += 3;
+      }
+    }
+    return sum > 0 ? std::sqrt(squares * count) / sum : 0;
   }
   /// Every other three blocks, of the three channels in turn, make a half.
   static size_t halfOf(uint64_t block) { return size_t(block / 3 % 2); }
@@ -86,6 +104,7 @@ class SurfaceWalk {
         for (Rgb& r : result.radiosity[half][i]) r *= 2 / (std::max(result.photons, 1.0) * area);
       }
     }
+    result.noise = noise();
     result.seconds = seconds();
     return result;
   }
@@ -111,6 +130,7 @@ void validate(const SurfaceWalkSettings& settings) {
           double(settings.patches));
   require(settings.photons >= 1, "photons", "at least 1", settings.photons);
   require(settings.timeLimit >= 0, "timeLimit", "0 or more seconds", settings.timeLimit);
+  require(settings.noise >= 0, "noise", "0 or more", settings.noise);
 }
 
 }  // namespace

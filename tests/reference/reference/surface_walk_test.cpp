@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numeric>
 
 #include "lychnite/base/error.h"
@@ -9,6 +10,7 @@
 #include "lychnite/optics/materials.h"
 #include "lychnite/reference/reference.h"
 #include "lychnite/reference/slab.h"
+#include "plain_walk.h"
 #include "reference/surface_samples.h"
 #include "walk_scenes.h"
 
@@ -106,6 +108,34 @@ TEST(SurfaceWalk, AgreesWithTheWalkThatACameraSees) {
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c] / cosines, pictured[c] / pixels, 0.02 * seen[c] / cosines);
 }
 
+/// On a shape with hollows, where light leaves and enters again, of channels that differ and scatter
+/// forwards.
+TEST(SurfaceWalk, AgreesPatchByPatchWithAWalkWithoutArt) {
+  const Coefficients medium{.sigma_s = Rgb(0.6, 2, 3), .sigma_a = Rgb(0.05, 0.02, 0.6), .g = 0.5, .eta = 1.4};
+  const Scene scene = sceneOf(translucent(builtinMesh("figurine"), 6, medium));
+  constexpr size_t kPatches = 60;
+  const SurfaceWalkResult walk = surfaceWalk(scene, {.patches = kPatches, .photons = 300'000});
+  const RayScene rays(scene);
+  for (int c = 0; c < 3; ++c) {
+    const auto plain = PlainWalk(rays, c, kPatches, unsigned(c) + 1).radiosity(600'000);
+    double squares = 0, variance = 0, told = 0, sum = 0;
+    for (size_t p = 0; p < kPatches; ++p) {
+      const double t[2] = {walk.radiosity[0][0][p][c], walk.radiosity[1][0][p][c]};
+      const double a = plain[0][p] - t[0], b = plain[1][p] - t[1];
+      squares += a * b;
+      // With a and b of variance s^2 the product's is s^4 where nothing is wrong, and (a - b)^4 is 12 s^4.
+      variance += std::pow(a - b, 4) / 12;
+      told += 0.5 * (t[0] + t[1]);
+      sum += 0.5 * (plain[0][p] + plain[1][p]);
+    }
+    const double mean = told / kPatches;
+    EXPECT_NEAR(sum / told, 1, 0.015) << c;
+    EXPECT_LT(squares, kSigmas * std::sqrt(variance)) << c;
+    // What a relative error of 5 % of every patch would make, it can tell.
+    EXPECT_LT(kSigmas * std::sqrt(variance), kPatches * std::pow(0.05 * mean, 2)) << c;
+  }
+}
+
 TEST(SurfaceWalk, IsTheSameOnAnyThreadsAndItsHalvesDiffer) {
   const Scene scene = sceneOf("figurine", "fig6", 10);
   const SurfaceWalkResult one = surfaceWalk(scene, {.patches = 50, .photons = 30'000, .threads = 1});
@@ -116,11 +146,28 @@ TEST(SurfaceWalk, IsTheSameOnAnyThreadsAndItsHalvesDiffer) {
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], 0.05 * a[c]);
 }
 
+TEST(SurfaceWalk, NoiseFallsWithTheRootOfThePhotonsAndStopsIt) {
+  const Scene scene = sceneOf("sphere", "fig6", 10);
+  double squares[2] = {0, 0};
+  for (uint64_t seed = 1; seed <= 3; ++seed)
+    for (const int times : {1, 4}) {
+      const double noise =
+          surfaceWalk(scene, {.patches = 300, .photons = 24576.0 * times, .seed = seed}).noise;
+      squares[times / 4] += noise * noise;
+    }
+  EXPECT_NEAR(squares[0] / squares[1], 4, 0.8);  // 900 values each: good to some 8 % of a ratio
+  const double wished = 0.7 * std::sqrt(squares[1] / 3);
+  const SurfaceWalkResult walk = surfaceWalk(scene, {.patches = 300, .photons = 1, .noise = wished});
+  EXPECT_LE(walk.noise, wished);
+  EXPECT_GT(walk.noise, 0.7 * wished);
+}
+
 TEST(SurfaceWalk, RefusesNumbersOutOfRange) {
   const Scene scene = sceneOf("sphere", "fig6", 10);
   EXPECT_THROW(surfaceWalk(scene, {.patches = 0}), Error);
   EXPECT_THROW(surfaceWalk(scene, {.photons = 0}), Error);
   EXPECT_THROW(surfaceWalk(scene, {.timeLimit = -1}), Error);
+  EXPECT_THROW(surfaceWalk(scene, {.noise = -1}), Error);
 }
 
 }  // namespace
