@@ -25,7 +25,7 @@ using namespace bench;
 
 constexpr int kLatticeSamples = 49;  // of the paper's pattern, whatever the settings
 // What the volume method is when it must be quick (docs/volume.md).
-constexpr VolumeSettings kLiveVolume{.cells = 48};
+constexpr VolumeSettings kLiveVolume{.cells = kLiveVolumeCells};
 
 double loadOfMachine() {
   double load = 0;

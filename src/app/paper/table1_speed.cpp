@@ -5,6 +5,7 @@
 
 #include "app/paper/parts.h"
 #include "lychnite/app/bench.h"
+#include "lychnite/volume/volume.h"
 
 namespace lychnite::paper {
 namespace {
@@ -96,10 +97,10 @@ void makeSpeed(Studio& studio, Report& report) {
       "map {} x {}, "
       "all components, median of {} frames in which light, size and material change each time; `volume` runs "
       "on the CPU "
-      "(48 cells, no photons), solving and drawing included. Load of the machine {:.1f} before, "
+      "({} cells, no photons), solving and drawing included. Load of the machine {:.1f} before, "
       "{:.1f} after.",
       bench.device, bench.cores, side, side, studio.quick() ? 256 : 512, studio.quick() ? 256 : 512,
-      bench.frames, bench.load[0], bench.load[1]);
+      bench.frames, kLiveVolumeCells, bench.load[0], bench.load[1]);
   report.blocks.push_back(table);
   report.differs =
       "The paper's first three models are not to be had: built-in models of the same numbers of triangles "
