@@ -35,6 +35,7 @@ void LightSolver::beam(LightField& field) {
   const size_t bodies = world_.bodies.size();
   field.passes = field.solved = field.exchangedAt = 0;
   field.emission.clear();
+  field.density.assign(bodies, 0);
   field.entering = enteringFlux(world_, field.light);
   field.beamed = beamLight(world_, field.light, field.entering);
   stats_.rays += field.beamed.tally.rays;
@@ -81,6 +82,7 @@ void LightSolver::trace(LightField& field) {
         if (world_.bodies[i]) field.deposits[half][i] += traced.deposits[half][i];
     field.tally += traced.tally;
   }
+  for (size_t i = 0; i < field.emission.size(); ++i) field.density[i] += field.emission[i].density();
   ++field.passes;
   stats_.flights += traced.tally.flights;
   stats_.rays += traced.tally.rays;

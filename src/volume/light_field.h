@@ -19,6 +19,7 @@ struct LightField {
   Fluxes beam, beamFirst;  ///< all orders, first order
   // By photons.
   std::vector<Emission> emission;     ///< of each body; empty to be found anew
+  std::vector<double> density;        ///< of the photons so far in each body, see Emission::density()
   int passes = 0, solved = 0;         ///< traced, and solved for
   std::vector<Deposits> deposits[2];  ///< by two halves, of independent photons: sums over the passes
   Tally tally;

@@ -52,18 +52,18 @@ struct Residuals {
   std::vector<Field> smooth[2];
 };
 
-Residuals residualsOf(const Smoother& smoother, const NodeEstimate& estimate, const Field& base) {
-  const double least = leastWidth(estimate.photons);
+Residuals residualsOf(const Smoother& smoother, const Field half[2], double photons, const Field& base) {
+  const double least = leastWidth(photons);
   std::vector<Smoother::Filter> widths;
   for (size_t w = 0; w < kWidths; ++w)
     widths.push_back(smoother.filter(twice(least * std::pow(kWidest / least, double(w) / (kWidths - 1)))));
   Residuals result;
-  for (size_t half : {0, 1}) {
-    result.raw[half] = estimate.half[half];
-    for (size_t i = 0; i < base.size(); ++i) result.raw[half][i] -= base[i];
+  for (size_t h : {0, 1}) {
+    result.raw[h] = half[h];
+    for (size_t i = 0; i < base.size(); ++i) result.raw[h][i] -= base[i];
   }
   auto out = smoother.filtered({{result.raw[0], widths}, {result.raw[1], widths}});
-  for (size_t half : {0, 1}) result.smooth[half] = std::move(out[half]);
+  for (size_t h : {0, 1}) result.smooth[h] = std::move(out[h]);
   return result;
 }
 
@@ -139,67 +139,81 @@ struct Known {
   double width;
 };
 
-/// Each of them, then what `tasks`, of one filter each, make: all in one go. 1 to 3 of both together.
-std::vector<Field> blended(const Smoother& smoother, const Field& entering, const std::vector<Known>& known,
-                           std::vector<Smoother::Task> tasks) {
-  std::vector<Smoother::Filter> below;
-  for (size_t k = 0; k < known.size(); ++k) {
-    const auto coarse = twice(known[k].width);
-    below.push_back(
-        smoother.filter([&](double q, int c) { return (1 - coarse(q, c)) * known[k].response(q, c); }));
-    tasks.insert(tasks.begin() + long(k), {known[k].measured, {smoother.filter(coarse)}});
-  }
-  tasks.push_back({entering, std::move(below)});
+/// It, and what `again` is smoothed by its width where that is given.
+Field blended(const Smoother& smoother, const Field& entering, const Known& known, const Field* again) {
+  const auto coarse = twice(known.width);
+  const auto below = [&](double q, int c) { return (1 - coarse(q, c)) * known.response(q, c); };
+  std::vector<Smoother::Task> tasks{{known.measured, {smoother.filter(coarse)}},
+                                    {entering, {smoother.filter(below)}}};
+  if (again) tasks.push_back({*again, {smoother.filter(gaussian(kAgainWidth))}});
   auto out = smoother.filtered(tasks);
-  std::vector<Field> result;
-  for (size_t t = 0; t + 1 < tasks.size(); ++t) result.push_back(std::move(out[t][0]));
-  for (size_t k = 0; k < known.size(); ++k)
-    for (size_t i = 0; i < entering.size(); ++i) result[k][i] += out.back()[k][i];
+  for (size_t i = 0; i < entering.size(); ++i)
+    for (size_t t = 1; t < out.size(); ++t) out[0][0][i] += out[t][0][i];
+  return std::move(out[0][0]);
+}
+
+/// What the photons' halves correct `base` by, and half of what the halves differ by then.
+struct Corrected {
+  Field flux, deviation;
+};
+
+Corrected corrected(const Smoother& smoother, const Surface& surface, Field base, const Field half[2],
+                    double photons) {
+  const Residuals residuals = residualsOf(smoother, half, photons, base);
+  const Field share =
+      choose(smoother, surface, sumsAround(surface.grid(), surface, squareErrors(surface, residuals)));
+  Corrected result{std::move(base), Field(share.size(), kZero)};
+  for (size_t i = 0; i < share.size(); ++i) {
+    if (!(surface.nodes()[i].area > 0)) continue;
+    for (size_t w = 0; w < kWidths; ++w) {
+      const Lanes &a = residuals.smooth[0][w][i], &b = residuals.smooth[1][w][i];
+      result.flux[i] += share[i][int(w)] * 0.5f * (a + b);
+      result.deviation[i] += share[i][int(w)] * 0.5f * (a - b);
+    }
+  }
   return result;
+}
+
+Field varianceOf(const Smoother& smoother, const Surface& surface, const Field& deviation) {
+  const auto& nodes = surface.nodes();
+  Field squares(nodes.size(), kZero);  // in units that add up over area
+  for (size_t i = 0; i < nodes.size(); ++i)
+    if (nodes[i].area > 0) squares[i] = deviation[i] * deviation[i] / nodes[i].area;
+  auto smooth = smoother.filtered({{std::move(squares), {smoother.filter(gaussian(kVarianceWidth))}}});
+  Field variance = std::move(smooth[0][0]);
+  for (size_t i = 0; i < nodes.size(); ++i)
+    for (int c = 0; c < 3; ++c) variance[i][c] = std::max(0.0f, variance[i][c] * nodes[i].area);
+  return variance;
+}
+
+Corrected firstOrderOf(const Smoother& smoother, const Surface& surface, const NodeEstimate& estimate,
+                       const FirstOrder& first) {
+  Field base =
+      blended(smoother, estimate.entering, {first.flux, first.response, leastWidth(kLooks)}, nullptr);
+  if (first.half[0].empty()) return {std::move(base), {}};
+  return corrected(smoother, surface, std::move(base), first.half, estimate.photons);
 }
 
 }  // namespace
 
 NodeFlux cleaned(const Smoother& smoother, const Surface& surface, const NodeEstimate& estimate,
                  const Smoother::Response& response, const FirstOrder* first) {
-  std::vector<Known> known{{estimate.beam, response, kBeamWidth}};
-  if (first) known.push_back({first->flux, first->response, leastWidth(std::max(kLooks, estimate.photons))});
-  const auto base = blended(smoother, estimate.entering, known,
-                            {{estimate.again, {smoother.filter(gaussian(kAgainWidth))}}});
-  NodeFlux result{base[0], {}};
-  for (size_t i = 0; i < result.flux.size(); ++i) {
-    result.flux[i] += base.back()[i];
-    if (first) result.flux[i] -= base[1][i];
+  Field base = blended(smoother, estimate.entering, {estimate.beam, response, kBeamWidth}, &estimate.again);
+  const bool photons = !estimate.half[0].empty();
+  Corrected all = photons ? corrected(smoother, surface, std::move(base), estimate.half, estimate.photons)
+                          : Corrected{std::move(base), {}};
+  if (first) {
+    const Corrected once = firstOrderOf(smoother, surface, estimate, *first);
+    for (size_t i = 0; i < all.flux.size(); ++i) all.flux[i] -= once.flux[i];
+    for (size_t i = 0; i < all.deviation.size(); ++i) all.deviation[i] -= once.deviation[i];
   }
-  if (estimate.half[0].empty()) return result;
-  Field known0 = base[0];
-  for (size_t i = 0; i < known0.size(); ++i) known0[i] += base.back()[i];
-  const Residuals residuals = residualsOf(smoother, estimate, known0);
-  const Field share =
-      choose(smoother, surface, sumsAround(surface.grid(), surface, squareErrors(surface, residuals)));
-  const auto& nodes = surface.nodes();
-  Field squares(nodes.size(), kZero);  // of the mean's deviation, units that add up over area
-  for (size_t i = 0; i < nodes.size(); ++i) {
-    if (!(nodes[i].area > 0)) continue;
-    Lanes deviation = kZero;
-    for (size_t w = 0; w < kWidths; ++w) {
-      const Lanes &a = residuals.smooth[0][w][i], &b = residuals.smooth[1][w][i];
-      result.flux[i] += share[i][int(w)] * 0.5f * (a + b);
-      deviation += share[i][int(w)] * 0.5f * (a - b);
-    }
-    squares[i] = deviation * deviation / nodes[i].area;
-  }
-  auto smooth = smoother.filtered({{std::move(squares), {smoother.filter(gaussian(kVarianceWidth))}}});
-  result.variance = std::move(smooth[0][0]);
-  for (size_t i = 0; i < nodes.size(); ++i)
-    for (int c = 0; c < 3; ++c) result.variance[i][c] = std::max(0.0f, result.variance[i][c] * nodes[i].area);
-  return result;
+  if (!photons) return {std::move(all.flux), {}};
+  return {std::move(all.flux), varianceOf(smoother, surface, all.deviation)};
 }
 
-std::vector<Lanes> cleanedFirst(const Smoother& smoother, const NodeEstimate& estimate,
-                                const FirstOrder& first) {
-  const double width = leastWidth(std::max(kLooks, estimate.photons));
-  return blended(smoother, estimate.entering, {{first.flux, first.response, width}}, {})[0];
+std::vector<Lanes> cleanedFirst(const Smoother& smoother, const Surface& surface,
+                                const NodeEstimate& estimate, const FirstOrder& first) {
+  return firstOrderOf(smoother, surface, estimate, first).flux;
 }
 
 glm::vec3 fineShare(const Smoother::Response& response, double finest) {

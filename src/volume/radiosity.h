@@ -19,16 +19,17 @@ struct NodeFlux {
   std::vector<Lanes> variance;  ///< of the noise that is left in the flux; empty without photons
 };
 
-/// Light of the first order, flux per node, as noisy as it was found; `response` as of cleaned().
+/// Light of the first order, flux per node: by a few looks along the beams, and by the photons' halves, which
+/// are empty without photons; `response` as of cleaned().
 struct FirstOrder {
-  std::vector<Lanes> flux;
+  std::vector<Lanes> flux, half[2];
   Smoother::Response response;
 };
 
 /// What a half-space of the medium makes of the entering flux (`response` to light of wave number q, radians
 /// per voxel) and what first collisions make of it in the shape are known without noise; what the photons
 /// differ from them is smoothed, at each place as widely as it bears, which the two halves tell
-/// (docs/volume.md). Without the first order where that is given.
+/// (docs/volume.md). Less the first order where that is given, known in the same way.
 NodeFlux cleaned(const Smoother& smoother, const Surface& surface, const NodeEstimate& estimate,
                  const Smoother::Response& response, const FirstOrder* first);
 
@@ -39,8 +40,8 @@ NodeFlux cleaned(const Smoother& smoother, const Surface& surface, const NodeEst
 /// nothing.
 glm::vec3 fineShare(const Smoother::Response& response, double finest);
 
-/// The first order alone, smoothed by one width.
-std::vector<Lanes> cleanedFirst(const Smoother& smoother, const NodeEstimate& estimate,
-                                const FirstOrder& first);
+/// The first order alone, likewise.
+std::vector<Lanes> cleanedFirst(const Smoother& smoother, const Surface& surface,
+                                const NodeEstimate& estimate, const FirstOrder& first);
 
 }  // namespace lychnite::volume

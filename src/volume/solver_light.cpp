@@ -63,22 +63,28 @@ NodeEstimate VolumeSolver::Impl::estimate(size_t object) const {
 /// Starting points of all passes per area, local units, where the light comes in that counts; of the light
 /// that has the fewest.
 double VolumeSolver::Impl::photonDensity(size_t object) const {
-  double least = passes() > 0 ? std::numeric_limits<double>::infinity() : 0;
-  for (const LightField& field : fields)
-    if (!field.emission.empty()) least = std::min(least, passes() * field.emission[object].density());
+  if (passes() < 1) return 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (const LightField& field : fields) least = std::min(least, field.density[object]);
   return least;
 }
 
 FirstOrder VolumeSolver::Impl::firstOrder(size_t object, const std::vector<Lanes>& entering) const {
   const Body& body = *world.bodies[object];
-  FirstOrder first{std::vector<Lanes>(entering.size(), Lanes{0, 0, 0, 0}), {}};
+  const std::vector<Lanes> none(entering.size(), Lanes{0, 0, 0, 0});
+  FirstOrder first{none, {}, {}};
+  const bool photons = passes() > 0;
+  if (photons) first.half[0] = first.half[1] = none;
   forLights(object, [&](const LightField& field, const Lanes& p) {
-    if (passes() < 1) addScaled(field.beamFirst[object], p, first.flux);
+    addScaled(field.beamFirst[object], p, first.flux);
     for (int half : {0, 1})
-      if (passes() > 0) addScaled(field.first[half][object], 0.5f * p, first.flux);
+      if (photons) addScaled(field.first[half][object], p, first.half[half]);
   });
   Lanes sum{0, 0, 0, 0}, all{0, 0, 0, 0};
-  for (size_t n = 0; n < entering.size(); ++n) sum += first.flux[n], all += entering[n];
+  for (size_t n = 0; n < entering.size(); ++n) {
+    sum += photons ? 0.5f * (first.half[0][n] + first.half[1][n]) : first.flux[n];
+    all += entering[n];
+  }
   const Lanes share = sum / (all + Lanes{1e-30f, 1e-30f, 1e-30f, 1});
   const double h = body.shape->grid.side();
   first.response = [share, h, &body](double q, int c) {
@@ -97,7 +103,7 @@ NodeFlux VolumeSolver::Impl::flux(int object, Orders orders) const {
   };
   if (orders == Orders::kAll) return cleaned(smoother, body.shape->surface, known, response, nullptr);
   const FirstOrder first = firstOrder(size_t(object), known.entering);
-  if (orders == Orders::kFirst) return {cleanedFirst(smoother, known, first), {}};
+  if (orders == Orders::kFirst) return {cleanedFirst(smoother, body.shape->surface, known, first), {}};
   return cleaned(smoother, body.shape->surface, known, response, &first);
 }
 
